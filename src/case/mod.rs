@@ -1,0 +1,280 @@
+//! What a case file says: the scene, the method, the effects it asks for, and what it is expected to give.
+//!
+//! A case is nested TOML. Every table below is one `[table]` of the file, every field one key, and an unknown key
+//! is an error. Lengths are in metres, times in seconds, velocities in m/s, pressures in Pa.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// A whole case file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// One line that names the scene in pictures and summaries.
+    pub title: String,
+    pub domain: Domain,
+    pub cloud: Cloud,
+    pub fluid: Fluid,
+    #[serde(default)]
+    pub boundaries: Boundaries,
+    #[serde(default)]
+    pub method: Method,
+    /// The physics of the scene: an effect whose table is absent adds no operation and no buffer.
+    #[serde(default)]
+    pub effects: Effects,
+    pub time: Time,
+    #[serde(default)]
+    pub output: Output,
+    /// Published values that the run is held to, by name.
+    #[serde(default)]
+    pub expect: BTreeMap<String, Expectation>,
+}
+
+/// The rectangle `[0, width] x [0, height]`, m.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    pub width: f64,
+    pub height: f64,
+}
+
+/// How the points are laid out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cloud {
+    pub arrangement: Arrangement,
+    /// Mean distance of neighbouring points, `l0`, m.
+    pub spacing: f64,
+    /// `jittered` alone: largest displacement along each axis, in spacings, below 0.5.
+    pub jitter: Option<f64>,
+    /// `random` alone: least distance of two points, in spacings.
+    pub minimum_distance: Option<f64>,
+    /// `jittered` and `random`: the same seed gives the same points.
+    pub seed: Option<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Arrangement {
+    /// A square lattice.
+    Regular,
+    /// A square lattice, every interior point displaced at random.
+    Jittered,
+    /// Random points with a minimum distance and the lattice's mean density.
+    Random,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// kg/m^3
+    pub density: f64,
+}
+
+/// The four sides of the rectangle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Boundaries {
+    pub left: Wall,
+    pub right: Wall,
+    pub bottom: Wall,
+    pub top: Wall,
+}
+
+/// A solid wall that moves along itself.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Velocity of the wall, m/s, tangent to it.
+    pub velocity: [f64; 2],
+}
+
+/// How derivatives become sums over neighbours.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Method {
+    /// Radius of the neighbourhood, `r_e`, in spacings.
+    pub radius: f64,
+    pub weight: Weight,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self { radius: 2.6, weight: Weight::Quadratic }
+    }
+}
+
+/// Weight of a neighbour at distance `r` in the least squares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Weight {
+    /// 1: the paper's.
+    None,
+    /// `(1 - r/r_e)^2`.
+    Quadratic,
+}
+
+/// The physics of a scene; a table that is absent costs nothing.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Effects {
+    pub viscosity: Option<Viscosity>,
+    pub pressure: Option<Pressure>,
+    pub advection: Option<Advection>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Viscosity {
+    /// Kinematic viscosity, m^2/s.
+    pub kinematic: f64,
+}
+
+/// Incompressibility: `div u = 0`, held by the pressure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Pressure {
+    pub form: PressureForm,
+    /// `conservative` alone; `fit` where absent.
+    pub gradient: Option<Gradient>,
+    /// `conjugate_gradient` for the conservative form and `bicgstab` for the collocated one where absent.
+    pub solver: Option<Solver>,
+    /// Volume change left in a step, `|div u| dt` (rms over the points); the solver stops there.
+    pub tolerance: f64,
+    pub max_iterations: u32,
+}
+
+impl Default for Pressure {
+    fn default() -> Self {
+        Self { form: PressureForm::Conservative, gradient: None, solver: None, tolerance: 1e-6, max_iterations: 2000 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PressureForm {
+    /// Fluxes through Voronoi faces: symmetric, compatible.
+    Conservative,
+    /// The paper's: the fitted Laplacian inside, the fitted normal derivative at walls; not symmetric.
+    Collocated,
+}
+
+/// How the pressure gradient of the correction is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Gradient {
+    /// The least-squares fit's.
+    Fit,
+    /// Minus the adjoint of the divergence: the pressure step never adds kinetic energy.
+    Adjoint,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Solver {
+    /// Jacobi-preconditioned; symmetric matrices alone.
+    ConjugateGradient,
+    /// Jacobi-preconditioned, with the rank-one shift.
+    Bicgstab,
+    /// Sparse factorisation, made once.
+    Direct,
+}
+
+/// The material derivative: the points move with the flow and the fields are carried back.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Advection {
+    pub remap: Remap,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Remap {
+    /// Evaluate the fit of the point nearest to where the fluid came from.
+    #[default]
+    Departure,
+    /// The paper's: fit at the moved points, evaluate each fit at its point's old place.
+    Forward,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// s
+    pub end: f64,
+    /// Largest distance a point moves in one step, in spacings.
+    #[serde(default = "default_courant")]
+    pub courant: f64,
+    /// A fixed step, s, in place of one chosen from `courant` and the viscous limit.
+    pub step: Option<f64>,
+    /// Stop when no velocity changes faster than this, m/s^2.
+    pub steady: Option<f64>,
+}
+
+fn default_courant() -> f64 {
+    0.8
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Steps between two rows of diagnostics.
+    pub report_every: u32,
+    /// Draw pressure.png, speed.png and centreline.png.
+    pub pictures: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { report_every: 50, pictures: true }
+    }
+}
+
+/// One published value, or a published profile, along a line through the domain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    pub component: Component,
+    pub line: Line,
+    pub measure: Measure,
+    /// `minimum` and `maximum`: the published value, m/s or Pa.
+    pub value: Option<f64>,
+    /// `profile`: a CSV file beside the case, `#` comments, a header, then coordinate along the line and value.
+    pub profile: Option<PathBuf>,
+    /// `profile`: the column of values; the first after the coordinate where absent.
+    pub column: Option<String>,
+    /// Largest relative error (extremes), or rms error over the profile's largest magnitude (profiles).
+    pub tolerance: f64,
+    /// Where the value was published.
+    pub source: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Component {
+    /// Velocity along x, m/s.
+    U,
+    /// Velocity along y, m/s.
+    V,
+    /// Pressure, Pa, relative to its value at the middle of the line.
+    P,
+}
+
+/// `{ x = 0.5 }`, the vertical line there, or `{ y = 0.5 }`, the horizontal one; m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub enum Line {
+    X(f64),
+    Y(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    Minimum,
+    Maximum,
+    /// Root mean square difference from a published profile.
+    Profile,
+}

@@ -1,0 +1,5 @@
+//! Stillpoint: meshfree simulation of 2D incompressible flow on points that stand still.
+
+pub mod case;
+pub mod simulation;
+pub mod snapshot;
