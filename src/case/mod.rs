@@ -3,6 +3,23 @@
 //! A case is nested TOML. Every table below is one `[table]` of the file, every field one key, and an unknown key
 //! is an error. Lengths are in metres, times in seconds, velocities in m/s, pressures in Pa.
 
+mod check;
+mod decode;
+mod defaults;
+mod document;
+mod error;
+mod fault;
+mod keys;
+mod load;
+mod reference;
+mod text;
+
+pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
+pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_SEED};
+pub use error::{CaseError, KeyError, KeyTrouble, Place};
+pub use reference::{Profile, ReferenceError};
+pub use text::TextError;
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -47,11 +64,11 @@ pub struct Cloud {
     pub arrangement: Arrangement,
     /// Mean distance of neighbouring points, `l0`, m.
     pub spacing: f64,
-    /// `jittered` alone: largest displacement along each axis, in spacings, below 0.5.
+    /// `jittered` alone: largest displacement along each axis, in spacings, below 0.5; [`DEFAULT_JITTER`] where absent.
     pub jitter: Option<f64>,
-    /// `random` alone: least distance of two points, in spacings.
+    /// `random` alone: least distance of two points, in spacings, up to 0.75; [`DEFAULT_MINIMUM_DISTANCE`] where absent.
     pub minimum_distance: Option<f64>,
-    /// `jittered` and `random`: the same seed gives the same points.
+    /// `jittered` and `random`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
     pub seed: Option<u64>,
 }
 
@@ -241,7 +258,8 @@ pub struct Expectation {
     pub measure: Measure,
     /// `minimum` and `maximum`: the published value, m/s or Pa.
     pub value: Option<f64>,
-    /// `profile`: a CSV file beside the case, `#` comments, a header, then coordinate along the line and value.
+    /// `profile`: a CSV file, `#` comments, a header, then the coordinate along the line and values. The case file
+    /// gives its path from its own folder; [`Case::load`] leaves it as seen from the working directory.
     pub profile: Option<PathBuf>,
     /// `profile`: the column of values; the first after the coordinate where absent.
     pub column: Option<String>,

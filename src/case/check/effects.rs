@@ -1,0 +1,51 @@
+//! Checks of the effects, and of the method and the time step where they depend on them.
+
+use super::super::fault::Fault;
+use super::super::{Case, Effects, Pressure, PressureForm, Remap, Solver};
+use super::require;
+
+/// Largest displacement of a forward remap, in spacings: beyond, its worst mode grows in every step.
+const FORWARD_COURANT: f64 = 1.0;
+
+pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    if case.effects == Effects::default() {
+        let reason = "nothing to compute: give at least one of effects.viscosity, effects.pressure, effects.advection";
+        return Err(Fault::reason("effects", reason));
+    }
+    if let Some(viscosity) = &case.effects.viscosity {
+        require(viscosity.kinematic > 0.0, "effects.viscosity.kinematic")?;
+    }
+    if let Some(pressure) = &case.effects.pressure {
+        check_pressure(pressure)?;
+    }
+    check_remap(case)
+}
+
+fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
+    require(pressure.tolerance > 0.0 && pressure.tolerance < 1.0, "effects.pressure.tolerance")?;
+    require(pressure.max_iterations >= 1, "effects.pressure.max_iterations")?;
+    if pressure.form != PressureForm::Collocated {
+        return Ok(());
+    }
+    if pressure.solver == Some(Solver::ConjugateGradient) {
+        let reason = "the collocated matrix (effects.pressure.form) is not symmetric: \
+                      conjugate gradients do not apply; use bicgstab";
+        return Err(Fault::reason("effects.pressure.solver", reason));
+    }
+    if pressure.gradient.is_some() {
+        let reason = "belongs to the conservative form, and effects.pressure.form is \"collocated\", \
+                      which takes the gradient of the fit; leave it out";
+        return Err(Fault::reason("effects.pressure.gradient", reason));
+    }
+    Ok(())
+}
+
+fn check_remap(case: &Case) -> Result<(), Fault> {
+    let forward = case.effects.advection.as_ref().is_some_and(|advection| advection.remap == Remap::Forward);
+    if forward && case.time.courant > FORWARD_COURANT {
+        let reason = "must be at most 1 with effects.advection.remap = \"forward\", whose errors grow beyond; \
+                      use \"departure\" for longer steps";
+        return Err(Fault::reason("time.courant", reason));
+    }
+    Ok(())
+}

@@ -1,0 +1,135 @@
+//! Checks of the domain, its walls, the points and their neighbourhoods.
+
+use super::super::fault::Fault;
+use super::super::{Arrangement, Case, Cloud, Domain};
+use super::require;
+
+/// Most points of a cloud.
+pub const LARGEST_CLOUD: f64 = 1e8;
+/// The radius of the neighbourhood is above this, in spacings: a lattice point then has 8 neighbours, the fit needs 5.
+pub const SMALLEST_RADIUS: f64 = 1.5;
+/// The radius of the neighbourhood is at most this, in spacings: a lattice point then has 80 neighbours.
+pub const LARGEST_RADIUS: f64 = 5.0;
+
+/// Fewest spacings along a side.
+const FEWEST_CELLS: f64 = 4.0;
+/// Part of a spacing by which a side may miss a whole number of them: room for decimals like 0.3333333.
+const WHOLE_WITHIN: f64 = 1e-6;
+/// Lattices tried on either side of the one asked for, in search of one that fits both sides.
+const LATTICES_TRIED: u32 = 2000;
+
+pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    let Case { domain, cloud, .. } = case;
+    require(domain.width > 0.0, "domain.width")?;
+    require(domain.height > 0.0, "domain.height")?;
+    require(cloud.spacing > 0.0, "cloud.spacing")?;
+    check_size(case)?;
+    check_whole(domain, cloud.spacing)?;
+    check_arrangement(cloud)?;
+    require(case.fluid.density > 0.0, "fluid.density")?;
+    check_walls(case)?;
+    let radius = case.method.radius;
+    require(radius > SMALLEST_RADIUS && radius <= LARGEST_RADIUS, "method.radius")
+}
+
+impl Case {
+    /// About how many points the cloud has: those of the lattice with its spacing, exact for lattices.
+    pub fn point_estimate(&self) -> f64 {
+        let along = |side: f64| (side / self.cloud.spacing).round() + 1.0;
+        along(self.domain.width) * along(self.domain.height)
+    }
+}
+
+fn check_size(case: &Case) -> Result<(), Fault> {
+    let points = case.point_estimate();
+    if points > LARGEST_CLOUD {
+        let reason = format!("gives about {points:.1e} points, more than {LARGEST_CLOUD:e}; take a larger spacing");
+        return Err(Fault::reason("cloud.spacing", reason));
+    }
+    let Domain { width, height } = case.domain;
+    let side = width.min(height);
+    if side / case.cloud.spacing < FEWEST_CELLS - WHOLE_WITHIN {
+        let most = side / FEWEST_CELLS;
+        let reason =
+            format!("must be at most {most}, {FEWEST_CELLS} spacings to the shorter side of {width} x {height} m");
+        return Err(Fault::reason("cloud.spacing", reason));
+    }
+    Ok(())
+}
+
+fn check_whole(domain: &Domain, spacing: f64) -> Result<(), Fault> {
+    let Domain { width, height } = *domain;
+    if is_whole(width / spacing) && is_whole(height / spacing) {
+        return Ok(());
+    }
+    let nearest = match nearest_spacing(domain, spacing) {
+        Some(nearest) => format!("the nearest spacing that does is {nearest}"),
+        None => "no spacing near it does: change the width or the height".to_owned(),
+    };
+    let reason = format!("must divide both sides of the domain, {width} x {height} m; {nearest}");
+    Err(Fault::reason("cloud.spacing", reason))
+}
+
+/// The spacing nearest to `spacing`, by the number of points along the width, that divides both sides.
+fn nearest_spacing(domain: &Domain, spacing: f64) -> Option<f64> {
+    let count = (domain.width / spacing).round();
+    let fits = |count: f64| {
+        let candidate = domain.width / count;
+        let cells = domain.height / candidate;
+        (count >= FEWEST_CELLS && cells > FEWEST_CELLS - WHOLE_WITHIN && is_whole(cells)).then_some(candidate)
+    };
+    let off = |candidate: &f64| (candidate - spacing).abs();
+    (0..=LATTICES_TRIED).find_map(|away| {
+        let either = [fits(count - f64::from(away)), fits(count + f64::from(away))];
+        either.into_iter().flatten().min_by(|a, b| off(a).total_cmp(&off(b)))
+    })
+}
+
+fn is_whole(cells: f64) -> bool {
+    (cells - cells.round()).abs() <= WHOLE_WITHIN
+}
+
+fn check_arrangement(cloud: &Cloud) -> Result<(), Fault> {
+    let arrangement = cloud.arrangement;
+    let belongs = |given: bool, to: &[Arrangement], key: &str, name: &str| match given && !to.contains(&arrangement) {
+        true => {
+            let reason =
+                format!(r#"belongs to {name} points, and cloud.arrangement is "{}"; leave it out"#, arrangement.word());
+            Err(Fault::reason(key, reason))
+        }
+        false => Ok(()),
+    };
+    use Arrangement::{Jittered, Random};
+    belongs(cloud.jitter.is_some(), &[Jittered], "cloud.jitter", "jittered")?;
+    belongs(cloud.minimum_distance.is_some(), &[Random], "cloud.minimum_distance", "random")?;
+    belongs(cloud.seed.is_some(), &[Jittered, Random], "cloud.seed", "jittered or random")?;
+    require((0.0..0.5).contains(&cloud.jitter()), "cloud.jitter")?;
+    let distance = cloud.minimum_distance();
+    require(distance > 0.0 && distance <= 0.75, "cloud.minimum_distance")
+}
+
+impl Arrangement {
+    fn word(self) -> &'static str {
+        match self {
+            Arrangement::Regular => "regular",
+            Arrangement::Jittered => "jittered",
+            Arrangement::Random => "random",
+        }
+    }
+}
+
+fn check_walls(case: &Case) -> Result<(), Fault> {
+    let walls = &case.boundaries;
+    let sides = [
+        ("boundaries.left.velocity", walls.left.velocity[0], "[0, v]"),
+        ("boundaries.right.velocity", walls.right.velocity[0], "[0, v]"),
+        ("boundaries.bottom.velocity", walls.bottom.velocity[1], "[u, 0]"),
+        ("boundaries.top.velocity", walls.top.velocity[1], "[u, 0]"),
+    ];
+    match sides.iter().find(|(_, normal, _)| *normal != 0.0) {
+        Some((key, _, tangent)) => {
+            Err(Fault::reason(key, format!("must be along the wall, {tangent}: a solid wall lets no fluid through")))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,46 @@
+//! What the types of a case cannot say: ranges, and keys that do not go together. Every check names its key.
+
+mod effects;
+mod expectations;
+mod layout;
+
+use super::Case;
+use super::fault::Fault;
+
+pub(super) use expectations::check_profiles;
+pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
+
+/// Most steps of one run: more would take years.
+const MOST_STEPS: f64 = 1e9;
+
+/// The first thing wrong with a decoded case. Reads no file and allocates nothing that grows with the cloud.
+pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    require(is_line(&case.title), "title")?;
+    layout::check(case)?;
+    effects::check(case)?;
+    check_time(case)?;
+    require(case.output.report_every >= 1, "output.report_every")?;
+    expectations::check(case)
+}
+
+fn check_time(case: &Case) -> Result<(), Fault> {
+    let time = &case.time;
+    require(time.end > 0.0, "time.end")?;
+    require(time.courant > 0.0 && time.courant <= 50.0, "time.courant")?;
+    require(time.steady.is_none_or(|change| change > 0.0), "time.steady")?;
+    let Some(step) = time.step else { return Ok(()) };
+    require(step > 0.0 && step <= time.end, "time.step")?;
+    match time.end / step > MOST_STEPS {
+        true => Err(Fault::reason("time.step", format!("more than {MOST_STEPS:e} steps until time.end"))),
+        false => Ok(()),
+    }
+}
+
+fn require(holds: bool, key: &str) -> Result<(), Fault> {
+    if holds { Ok(()) } else { Err(Fault::range(key)) }
+}
+
+/// One line that says something: titles and sources stand in pictures and summaries.
+fn is_line(text: &str) -> bool {
+    !text.trim().is_empty() && !text.contains(char::is_control)
+}

@@ -1,0 +1,67 @@
+//! What holds where a case leaves a key open and the answer depends on another key.
+
+use super::{Arrangement, Case, Cloud, Gradient, Pressure, PressureForm, Solver};
+
+/// Largest displacement of a jittered point along each axis, in spacings.
+pub const DEFAULT_JITTER: f64 = 0.4;
+/// Least distance of two random points, in spacings. Sequential random placing jams near 0.83.
+pub const DEFAULT_MINIMUM_DISTANCE: f64 = 0.7;
+/// Seed of the jittered and random arrangements.
+pub const DEFAULT_SEED: u64 = 1;
+
+impl Cloud {
+    /// Largest displacement along each axis, in spacings; 0 unless jittered.
+    pub fn jitter(&self) -> f64 {
+        match self.arrangement {
+            Arrangement::Jittered => self.jitter.unwrap_or(DEFAULT_JITTER),
+            Arrangement::Regular | Arrangement::Random => 0.0,
+        }
+    }
+
+    /// Least distance of two random points, in spacings.
+    pub fn minimum_distance(&self) -> f64 {
+        self.minimum_distance.unwrap_or(DEFAULT_MINIMUM_DISTANCE)
+    }
+
+    /// The same seed gives the same points.
+    pub fn seed(&self) -> u64 {
+        self.seed.unwrap_or(DEFAULT_SEED)
+    }
+}
+
+impl Pressure {
+    /// The gradient of the correction; the collocated form has the fit's alone.
+    pub fn gradient(&self) -> Gradient {
+        self.gradient.unwrap_or(Gradient::Fit)
+    }
+
+    /// The solver, by default the cheapest iterative one that applies to the form.
+    pub fn solver(&self) -> Solver {
+        self.solver.unwrap_or(match self.form {
+            PressureForm::Conservative => Solver::ConjugateGradient,
+            PressureForm::Collocated => Solver::Bicgstab,
+        })
+    }
+}
+
+impl Case {
+    /// Writes the defaults that apply into the keys left open, so that a summary shows what was run.
+    pub(super) fn settle_defaults(&mut self) {
+        let cloud = &mut self.cloud;
+        if cloud.arrangement != Arrangement::Regular {
+            cloud.seed = Some(cloud.seed());
+        }
+        if cloud.arrangement == Arrangement::Jittered {
+            cloud.jitter = Some(cloud.jitter());
+        }
+        if cloud.arrangement == Arrangement::Random {
+            cloud.minimum_distance = Some(cloud.minimum_distance());
+        }
+        if let Some(pressure) = &mut self.effects.pressure {
+            pressure.solver = Some(pressure.solver());
+            if pressure.form == PressureForm::Conservative {
+                pressure.gradient = Some(pressure.gradient());
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! What each key of a case file may hold, in the words that its errors use.
+
+use super::fault::dotted;
+
+/// Dotted key, and the end of the sentence "it must be ...". `*` stands for any name.
+const ALLOWED: &[(&str, &str)] = &[
+    ("title", "one line of text that names the scene"),
+    ("domain", "a table with the keys width, height"),
+    ("domain.width", "a length above 0, m"),
+    ("domain.height", "a length above 0, m"),
+    ("cloud", "a table with the keys arrangement, spacing"),
+    ("cloud.arrangement", r#""regular", "jittered" or "random""#),
+    ("cloud.spacing", "a length above 0, m"),
+    ("cloud.jitter", "a number from 0 to below 0.5, in spacings"),
+    ("cloud.minimum_distance", "a number above 0 and at most 0.75, in spacings"),
+    ("cloud.seed", "a whole number from 0"),
+    ("fluid", "a table with the key density"),
+    ("fluid.density", "a number above 0, kg/m^3"),
+    ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
+    ("method.radius", "a number above 1.5 and at most 5, in spacings"),
+    ("method.weight", r#""none" or "quadratic""#),
+    ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
+    ("effects.pressure.form", r#""conservative" or "collocated""#),
+    ("effects.pressure.gradient", r#""fit" or "adjoint""#),
+    ("effects.pressure.solver", r#""conjugate_gradient", "bicgstab" or "direct""#),
+    ("effects.pressure.tolerance", "a number above 0 and below 1"),
+    ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),
+    ("effects.advection.remap", r#""departure" or "forward""#),
+    ("time", "a table with the key end"),
+    ("time.end", "a time above 0, s"),
+    ("time.courant", "a number above 0 and at most 50, in spacings a step"),
+    ("time.step", "a time above 0 and at most time.end, s"),
+    ("time.steady", "a number above 0, m/s^2"),
+    ("output.report_every", "a whole number from 1 to 4294967295"),
+    ("output.pictures", "true or false"),
+    ("expect", "tables [expect.NAME]"),
+    ("expect.*", "a table, its name of letters, digits, _ and - alone"),
+    ("expect.*.component", r#""u", "v" or "p""#),
+    ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
+    ("expect.*.measure", r#""minimum", "maximum" or "profile""#),
+    ("expect.*.value", "a number other than 0 (its error is relative), m/s or Pa"),
+    ("expect.*.profile", "the path of a CSV file, from the case file's folder"),
+    ("expect.*.column", "the name of a column of the profile"),
+    ("expect.*.tolerance", "a number above 0, relative"),
+    ("expect.*.source", "a line that says where the value was published"),
+];
+
+/// What `path` may hold; an item of an array and a variant's content take the words of the key that holds them.
+pub(super) fn allowed(path: &[String]) -> Option<&'static str> {
+    let is_row = |key: &str, path: &[String]| {
+        key.split('.').count() == path.len()
+            && key.split('.').zip(path).all(|(name, given)| name == "*" || name == given)
+    };
+    let find = |path: &[String]| ALLOWED.iter().find(|(key, _)| is_row(key, path)).map(|(_, text)| *text);
+    find(path).or_else(|| {
+        let (last, parent) = path.split_last()?;
+        let inside = last.starts_with('[') || parent.last().is_some_and(|name| name == "line");
+        if inside { find(parent) } else { None }
+    })
+}
+
+/// The key that an unknown one was perhaps meant to be: a like one of its own table, else the same name in another.
+pub(super) fn suggest(path: &[String], known: &[&str]) -> Option<String> {
+    let (name, table) = path.split_last()?;
+    let sibling = closest(name, known).map(|known| {
+        let mut meant = table.to_vec();
+        meant.push(known.to_owned());
+        dotted(&meant)
+    });
+    sibling.or_else(|| {
+        let elsewhere = |key: &&str| !key.contains('*') && key.rsplit('.').next() == Some(name);
+        ALLOWED.iter().map(|(key, _)| *key).find(elsewhere).map(str::to_owned)
+    })
+}
+
+/// The word of `known` that `given` is a likely misspelling of.
+pub(super) fn closest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
+    let scored = known.iter().map(|word| (strsim::jaro_winkler(given, word), *word));
+    scored.filter(|(score, _)| *score > 0.8).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, word)| word)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::de::DeserializeOwned;
+    use toml::Value;
+
+    use super::super::decode::decode;
+    use super::super::fault::Problem;
+    use super::super::*;
+    use super::*;
+
+    fn path(key: &str) -> Vec<String> {
+        key.split('.').filter(|name| !name.is_empty()).map(str::to_owned).collect()
+    }
+
+    /// The keys that the type has, as it reports them when given one that it has not.
+    fn fields<T: DeserializeOwned>() -> &'static [&'static str] {
+        let unknown = Value::Table([("?".to_owned(), Value::Integer(0))].into_iter().collect());
+        match decode::<T>(&unknown).map(|_| ()).expect_err("an unknown key").problem {
+            Problem::Unknown(known) => known,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_table_holds_the_keys_of_the_types_and_no_others() {
+        let tables: [(&str, &[&str]); 11] = [
+            ("domain", fields::<Domain>()),
+            ("cloud", fields::<Cloud>()),
+            ("fluid", fields::<Fluid>()),
+            ("boundaries.*", fields::<Wall>()),
+            ("method", fields::<Method>()),
+            ("effects.viscosity", fields::<Viscosity>()),
+            ("effects.pressure", fields::<Pressure>()),
+            ("effects.advection", fields::<Advection>()),
+            ("time", fields::<Time>()),
+            ("output", fields::<Output>()),
+            ("expect.*", fields::<Expectation>()),
+        ];
+        let held = tables.iter().flat_map(|(table, keys)| keys.iter().map(move |key| format!("{table}.{key}")));
+        let mut held: Vec<String> = held.collect();
+        let absent: Vec<_> = held.iter().filter(|key| allowed(&path(key)).is_none()).collect();
+        assert!(absent.is_empty(), "no words for {absent:?}");
+        held.extend(fields::<Case>().iter().map(|key| (*key).to_owned()));
+        held.push("expect.*".to_owned());
+        let stray: Vec<_> = ALLOWED.iter().filter(|(key, _)| !held.contains(&(*key).to_owned())).collect();
+        assert!(stray.is_empty(), "words for no key: {stray:?}");
+    }
+
+    #[test]
+    fn every_word_that_a_key_takes_is_offered() {
+        fn words<T: DeserializeOwned>() -> &'static [&'static str] {
+            match decode::<T>(&Value::String("?".to_owned())).map(|_| ()).expect_err("an unknown word").problem {
+                Problem::Word(_, known) => known,
+                other => panic!("{other:?}"),
+            }
+        }
+        let keys: [(&str, &[&str]); 8] = [
+            ("cloud.arrangement", words::<Arrangement>()),
+            ("method.weight", words::<Weight>()),
+            ("effects.pressure.form", words::<PressureForm>()),
+            ("effects.pressure.gradient", words::<Gradient>()),
+            ("effects.pressure.solver", words::<Solver>()),
+            ("effects.advection.remap", words::<Remap>()),
+            ("expect.any.component", words::<Component>()),
+            ("expect.any.measure", words::<Measure>()),
+        ];
+        for (key, words) in keys {
+            let text = allowed(&path(key)).expect(key);
+            assert!(
+                words.iter().all(|word| text.contains(&format!("{word:?}"))),
+                "{key}: {text} lacks one of {words:?}"
+            );
+            assert_eq!(text.matches('"').count(), 2 * words.len(), "{key}: {text} offers more than {words:?}");
+        }
+    }
+
+    #[test]
+    fn unlike_words_are_not_suggested() {
+        assert_eq!(closest("spacng", &["spacing", "seed"]), Some("spacing"));
+        assert_eq!(closest("colour", &["spacing", "seed"]), None);
+        assert_eq!(suggest(&path("domain.jitter"), &["width"]), Some("cloud.jitter".to_owned()));
+    }
+}
