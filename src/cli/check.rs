@@ -1,0 +1,9 @@
+//! `check`: is this case file right, and how large is it?
+
+use super::args::CaseArguments;
+use super::{CliError, load, print};
+
+pub(super) fn check(arguments: &CaseArguments) -> Result<(), CliError> {
+    let case = load(arguments)?;
+    print(format_args!("ok: {}, about {} points", case.title, case.point_estimate()))
+}
