@@ -1,0 +1,193 @@
+//! Case files, good and bad: what each mistake says, on one line, and that `--set` reaches the case.
+
+mod mistakes;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use stillpoint::case::{Case, Gradient, Solver};
+
+/// A right case; each test below spoils or changes one thing of it.
+const GOOD: &str = r#"title = "Cavity"
+[domain]
+width = 1.0
+height = 1.5
+[cloud]
+arrangement = "random"
+spacing = 0.1
+[fluid]
+density = 1.0
+[boundaries]
+top.velocity = [1.0, 0.0]
+[method]
+radius = 2.8
+[effects.viscosity]
+kinematic = 0.01
+[effects.pressure]
+form = "conservative"
+[effects.advection]
+remap = "departure"
+[time]
+end = 60.0
+courant = 0.8
+[output]
+report_every = 10
+[expect.u_min]
+component = "u"
+line = { x = 0.5 }
+measure = "minimum"
+value = -0.2
+tolerance = 0.01
+source = "a paper"
+[expect.u_all]
+component = "u"
+line = { x = 0.5 }
+measure = "profile"
+profile = "profile.csv"
+column = "u"
+tolerance = 0.01
+source = "a paper"
+"#;
+
+/// A folder with the profile that `GOOD` names.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("profile.csv"), "y,u\n0.0,0.0\n1.5,1.0\n").expect("a profile");
+    folder
+}
+
+fn load(text: &str, overrides: &[&str]) -> Result<Case, String> {
+    let folder = folder();
+    let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+    let message = |error: stillpoint::case::CaseError| error.to_string();
+    let case = Case::from_text(text, &folder.path().join("bad.toml"), &overrides);
+    let trim = |text: String| text.replace(&format!("{}/", folder.path().display()), "");
+    case.map_err(|error| trim(message(error)))
+}
+
+fn edited(from: &str, to: &str) -> String {
+    assert_eq!(GOOD.matches(from).count(), 1, "{from:?} is to stand in the good case once");
+    GOOD.replace(from, to)
+}
+
+fn shipped() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let entries = fs::read_dir(folder).expect("the folder of cases").map(|entry| entry.expect("an entry").path());
+    entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect()
+}
+
+#[test]
+fn the_good_case_is_good_and_completed() {
+    let case = load(GOOD, &[]).expect("the good case");
+    assert_eq!((case.cloud.minimum_distance, case.cloud.seed, case.cloud.jitter), (Some(0.7), Some(1), None));
+    let pressure = case.effects.pressure.as_ref().expect("a pressure");
+    assert_eq!((pressure.solver, pressure.gradient), (Some(Solver::ConjugateGradient), Some(Gradient::Fit)));
+    assert_eq!(case.point_estimate(), 11.0 * 16.0);
+    let json = serde_json::to_string(&case).expect("a case as JSON");
+    assert_eq!(serde_json::from_str::<Case>(&json).expect("a case from JSON"), case);
+}
+
+#[test]
+fn defaults_that_depend_on_other_keys_are_filled_in() {
+    let jittered = load(&edited("\"random\"", "\"jittered\""), &[]).expect("a jittered case");
+    assert_eq!((jittered.cloud.jitter, jittered.cloud.minimum_distance), (Some(0.4), None));
+    let regular = load(&edited("\"random\"", "\"regular\""), &[]).expect("a regular case");
+    assert_eq!((regular.cloud.jitter, regular.cloud.minimum_distance, regular.cloud.seed), (None, None, None));
+    let collocated = load(GOOD, &["effects.pressure.form=collocated"]).expect("a collocated case");
+    let pressure = collocated.effects.pressure.as_ref().expect("a pressure");
+    assert_eq!((pressure.solver, pressure.gradient), (Some(Solver::Bicgstab), None));
+}
+
+#[test]
+fn pressure_is_expected_only_where_it_is_computed() {
+    let text = edited("[effects.pressure]\nform = \"conservative\"\n", "");
+    assert!(load(&text, &[]).is_ok());
+    let message = load(&text, &["expect.u_min.component=p"]).expect_err("a pressure without its effect");
+    assert!(message.contains("--set expect.u_min.component=p: expect.u_min.component = \"p\": there is no pressure"));
+}
+
+#[test]
+fn set_changes_values_of_every_kind_and_makes_tables() {
+    let overrides = [
+        "cloud.spacing=0.05",
+        "title=A = B",
+        "boundaries.bottom.velocity=[0.5, 0.0]",
+        "method.weight=none",
+        "output.pictures=false",
+        "cloud.seed = 7",
+        "cloud.seed=8",
+    ];
+    let case = load(GOOD, &overrides).expect("a changed case");
+    let expected = edited("spacing = 0.1", "spacing = 0.05\nseed = 8")
+        .replace("\"Cavity\"", "\"A = B\"")
+        .replace("[boundaries]", "[boundaries]\nbottom.velocity = [0.5, 0.0]")
+        .replace("[method]", "[method]\nweight = \"none\"")
+        .replace("[output]", "[output]\npictures = false");
+    let mut expected = load(&expected, &[]).expect("the same case, written out");
+    for (name, expectation) in &mut expected.expect {
+        expectation.profile = case.expect[name].profile.clone();
+    }
+    assert_eq!(case, expected);
+    let bare = edited("[effects.viscosity]\nkinematic = 0.01\n", "");
+    assert_eq!(load(&bare, &[]).expect("no viscosity").effects.viscosity, None);
+    let viscous = load(&bare, &["effects.viscosity.kinematic=0.5"]).expect("a viscosity that --set made");
+    assert_eq!(viscous.effects.viscosity.map(|viscosity| viscosity.kinematic), Some(0.5));
+}
+
+#[test]
+fn a_wrong_set_is_named() {
+    for (given, expected) in [
+        ("cloud.spacng=0.1", "--set cloud.spacng=0.1: cloud.spacng is not a key (did you mean cloud.spacing?)"),
+        ("nu=1", "--set nu=1: nu is not a key; a case file has title"),
+        ("effects.drag.factor=1", "--set effects.drag.factor=1: effects.drag is not a key; [effects] has viscosity"),
+        ("cloud.spacing=-1", "--set cloud.spacing=-1: cloud.spacing = -1: must be a length above 0, m"),
+        ("cloud.spacing=0.1m", "--set cloud.spacing=0.1m: cloud.spacing = \"0.1m\": must be a length above 0, m"),
+        ("cloud.spacing.x=1", "--set cloud.spacing.x=1: cloud.spacing is not a table"),
+        ("title.x=1", "--set title.x=1: title is not a table"),
+        ("effects.viscosity={}", "--set effects.viscosity={}: effects.viscosity.kinematic is missing"),
+        ("cloud.spacing", "--set cloud.spacing: expected key=value"),
+        ("cloud.spacing=", "--set cloud.spacing=: expected key=value"),
+        ("=1", "--set =1: expected key=value"),
+        ("cloud..spacing=1", "--set cloud..spacing=1: expected key=value"),
+        ("title=\"a", "--set title=\"a: \"a is not a TOML value: "),
+        ("cloud.spacing=[1", "--set cloud.spacing=[1: [1 is not a TOML value: "),
+        ("a.b.c.d.e.f.g.h.i=1", "--set a.b.c.d.e.f.g.h.i=1: no key is 8 tables deep"),
+        ("cloud.spacing=1\n[x]", "--set cloud.spacing=1\\n[x]: cloud.spacing = \"1\\n[x]\": must be a length"),
+    ] {
+        let message = load(GOOD, &[given]).expect_err(given);
+        assert!(message.starts_with(expected), "\n  {given:?} says\n  {message:?}, not\n  {expected:?}");
+        assert!(!message.contains('\n'), "{message:?} has more than one line");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("latin1.toml"), b"# one\n# two\ntitle = \"Hohlr\xe4ume\"\n").expect("a file");
+    fs::write(at("large.toml"), vec![b'#'; (1 << 20) + 1]).expect("a file");
+    fs::write(at("empty.toml"), "").expect("a file");
+    for (name, expected) in [
+        ("absent.toml", "absent.toml: no such file"),
+        (".", "a folder, where a file was expected"),
+        ("latin1.toml", "latin1.toml:3: not UTF-8 text"),
+        ("large.toml", "large.toml: larger than 1048576 bytes"),
+        ("empty.toml", "empty.toml: title is missing: it must be one line of text"),
+    ] {
+        let message = Case::load(&at(name), &[]).expect_err(name).to_string();
+        assert!(message.contains(expected), "{message:?} lacks {expected:?}");
+    }
+    fs::write(at("marked.toml"), format!("\u{feff}{}", GOOD.replace('\n', "\r\n"))).expect("a file");
+    Case::load(&at("marked.toml"), &[]).expect("a case with a byte order mark and CRLF");
+}
+
+#[test]
+fn every_shipped_case_loads_and_finds_its_profiles() {
+    let cases = shipped();
+    assert!(cases.len() >= 6, "{cases:?}");
+    for path in cases {
+        let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let profiles: Vec<_> = case.expect.values().filter_map(|expectation| expectation.profile.as_ref()).collect();
+        assert!(!profiles.is_empty() && profiles.iter().all(|profile| profile.is_file()), "{profiles:?}");
+    }
+}

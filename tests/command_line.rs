@@ -1,0 +1,72 @@
+//! The command as a process: what it prints where, its exit codes, and that bad input leaves nothing behind.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const CASE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/cavity_re100_regular.toml");
+
+fn stillpoint(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stillpoint"));
+    command.current_dir(folder).args(arguments).output().expect("the command starts")
+}
+
+fn empty_folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+#[test]
+fn check_says_what_the_case_is_and_how_large() {
+    let folder = empty_folder();
+    let output = stillpoint(folder.path(), &["check", CASE]);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    assert_eq!(text(&output.stdout), "ok: Lid-driven cavity, Re 100, regular points, about 4225 points\n");
+    let output = stillpoint(folder.path(), &["check", CASE, "--set", "cloud.spacing=0.0625", "--set", "title=Coarse"]);
+    assert_eq!(text(&output.stdout), "ok: Coarse, about 289 points\n");
+}
+
+#[test]
+fn bad_input_exits_with_2_and_one_line_and_writes_nothing() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("bad.toml"), "title = \"x\"\nwidht = 1\n").expect("a file");
+    for (arguments, expected) in [
+        (&["check", "none.toml"][..], "error: none.toml: no such file\n"),
+        (&["check", "."], "error: .: a folder, where a file was expected\n"),
+        (&["check", "bad.toml"], "error: bad.toml:2: widht is not a key; a case file has title, domain, cloud, fluid,"),
+        (&["run", "bad.toml"], "error: bad.toml:2: widht is not a key"),
+        (&["plan", "bad.toml"], "error: bad.toml:2: widht is not a key"),
+        (&["run", CASE, "--set", "cloud.spacing=nan"], "error: --set cloud.spacing=nan: cloud.spacing = NaN: must be"),
+        (&["run", CASE, "--out", "bad.toml"], "error: bad.toml: not a folder"),
+        (&["run", CASE, "--out", "."], "error: .: has something in it already; give another --out, or --force"),
+    ] {
+        let output = stillpoint(folder.path(), arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.starts_with(expected), "{arguments:?} says {message:?}, not {expected:?}");
+        assert_eq!((message.lines().count(), output.stdout.len()), (1, 0), "{message:?}");
+    }
+    let left: Vec<_> = fs::read_dir(folder.path()).expect("the folder").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
+
+#[test]
+fn a_wrong_command_line_exits_with_2_and_says_what_would_be_right() {
+    let folder = empty_folder();
+    for (arguments, expected) in [
+        (&[][..], "Usage: stillpoint"),
+        (&["walk"], "unrecognized subcommand 'walk'"),
+        (&["run"], "<CASE>"),
+        (&["run", CASE, "--engine", "fpga"], "[possible values: auto, cpu, gpu]"),
+        (&["check", CASE, "--sett", "a=1"], "a similar argument exists: '--set'"),
+    ] {
+        let output = stillpoint(folder.path(), arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.contains(expected), "{arguments:?} says {message:?}, which lacks {expected:?}");
+    }
+    assert_eq!(stillpoint(folder.path(), &["--version"]).status.code(), Some(0));
+}
