@@ -2,5 +2,9 @@
 
 pub mod case;
 pub mod cli;
+pub mod cloud;
+pub mod cpu;
+pub mod engine;
 pub mod simulation;
 pub mod snapshot;
+pub mod step;

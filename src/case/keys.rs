@@ -31,6 +31,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("time.courant", "a number above 0 and at most 50, in spacings a step"),
     ("time.step", "a time above 0 and at most time.end, s"),
     ("time.steady", "a number above 0, m/s^2"),
+    ("time.splitting", r#""reflection" or "projection""#),
     ("output.report_every", "a whole number from 1 to 4294967295"),
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),

@@ -228,6 +228,20 @@ pub struct Time {
     pub step: Option<f64>,
     /// Stop when no velocity changes faster than this, m/s^2.
     pub steady: Option<f64>,
+    #[serde(default)]
+    pub splitting: Splitting,
+}
+
+/// How advection and forces follow each other in time.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Splitting {
+    /// Forces of half a step, projection, and the same half step again (Zehnder, Narain and Thomaszewski 2018): second
+    /// order, and a steady state that depends on dt as dt^2.
+    #[default]
+    Reflection,
+    /// The paper's: forces of a whole step, then projection; first order.
+    Projection,
 }
 
 fn default_courant() -> f64 {

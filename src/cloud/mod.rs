@@ -1,0 +1,96 @@
+//! Where the points are: a rectangle filled with points, on its walls and inside.
+
+mod arrangement;
+pub mod grid;
+pub mod voronoi;
+mod wall;
+
+use glam::DVec2;
+
+use crate::case;
+pub use wall::Side;
+
+/// The points of a scene at their initial places, interior points first, boundary points last.
+///
+/// With that order "interior" and "boundary" are two ranges, and no kernel asks a point which it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cloud {
+    /// Places of all points, m.
+    pub position: Vec<DVec2>,
+    /// Number of interior points: `position[..interior]`.
+    pub interior: usize,
+    /// Outward unit normals of the boundary points, `position[interior..]`; at a corner, of the mean of its two sides.
+    pub normal: Vec<DVec2>,
+    /// The sides of the rectangle that each boundary point lies on: one, or two at a corner.
+    pub sides: Vec<Vec<Side>>,
+    /// Mean distance of neighbouring points, `l0`, m.
+    pub spacing: f64,
+    /// Width and height of the rectangle, m.
+    pub size: DVec2,
+}
+
+/// Why a cloud could not be laid out.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CloudError {
+    #[error(
+        "cloud.minimum_distance = {minimum_distance}: only {placed} of {wanted} random points fit; allowed: about 0.7 or less"
+    )]
+    Jammed { minimum_distance: f64, placed: usize, wanted: usize },
+    #[error(
+        "points {first} and {second} coincide at ({x}, {y}) m: no derivative exists between them; \
+         allowed: any two points at least {least:e} m apart"
+    )]
+    Coincident { first: usize, second: usize, x: f64, y: f64, least: f64 },
+}
+
+impl Cloud {
+    /// Lays out the points that `case` asks for. The same case gives the same points on every machine.
+    pub fn build(case: &case::Case) -> Result<Self, CloudError> {
+        let size = DVec2::new(case.domain.width, case.domain.height);
+        let cells = wall::cells(size, case.cloud.spacing);
+        let (boundary, sides) = wall::points(size, cells);
+        let mut position = arrangement::interior(&case.cloud, size, cells, &boundary)?;
+        arrangement::sort_by_cell(&mut position, 2.0 * case.cloud.spacing);
+        let interior = position.len();
+        position.extend(boundary);
+        let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
+        let cloud = Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size };
+        Ok(cloud)
+    }
+
+    /// Number of points, interior and boundary.
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// The volume that each point stands for where no cells are built, m^2: `l0^2` inside, half on a side, a quarter
+    /// at a corner. It sums to the area of the rectangle.
+    pub fn nominal_volume(&self) -> Vec<f64> {
+        let [nx, ny] = wall::cells(self.size, self.spacing);
+        let cell = self.size.x * self.size.y / (nx * ny) as f64;
+        let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len()));
+        std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
+    }
+
+    /// The velocity that the walls prescribe at each boundary point, m/s. A corner belongs to the side wall, not to the
+    /// lid: the fluid there rests.
+    pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
+        let velocity = |side: &Side| DVec2::from_array(side.wall(boundaries).velocity);
+        // A corner takes what both its walls agree on.
+        let agreed = |sides: &Vec<Side>| {
+            let first = velocity(&sides[0]);
+            if sides.iter().all(|side| velocity(side) == first) { first } else { DVec2::ZERO }
+        };
+        self.sides.iter().map(agreed).collect()
+    }
+}
+
+/// Small clouds of every arrangement, for tests.
+#[cfg(test)]
+pub(crate) fn test_clouds() -> Vec<Cloud> {
+    Vec::new()
+}

@@ -1,0 +1,164 @@
+//! Voronoi cells of the points, clipped by the rectangle: the geometry of the conservative pressure equation.
+//!
+//! Every point clips its own cell from the bisectors with the points around it; no mesh is stored. A pair of points
+//! that share a face of length `A_ij` gets one weight `w_ij = w_ji = A_ij / |d_ij|`, and every point its volume `V_i`.
+//! Then `sum_j w_ij d_ij = -A_i n_i`, `4 V_i = sum_j w_ij |d_ij|^2` inside, and the volumes sum to the area.
+//! Units: m for faces, m^2 for volumes; the weights have none.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::grid::Grid;
+
+/// Faces shorter than this fraction of the spacing are left out: lattice points that touch at a corner alone.
+const LEAST_FACE: f64 = 1e-7;
+
+/// The cells of all points of a cloud.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cells {
+    /// Volume of every cell, m^2.
+    pub volume: Vec<f64>,
+    /// Where each point's faces begin in `neighbour` and `weight`; one more entry than points.
+    pub start: Vec<usize>,
+    /// The point across each face.
+    pub neighbour: Vec<u32>,
+    /// `w_ij` of each face; the same number from both sides.
+    pub weight: Vec<f64>,
+}
+
+/// One cell on its own.
+struct Cell {
+    volume: f64,
+    /// Neighbour and weight, ascending by neighbour.
+    faces: Vec<(u32, f64)>,
+}
+
+impl Cells {
+    /// Clips the cells of `position` inside the rectangle `[0, size]`.
+    pub fn build(position: &[DVec2], size: DVec2, spacing: f64) -> Self {
+        let grid = Grid::new(position, size, 1.5 * spacing);
+        let clip = |point: usize| clip(position, point, size, spacing, &grid);
+        let mut cells: Vec<Cell> = (0..position.len()).into_par_iter().map(clip).collect();
+        symmetrise(&mut cells);
+        let mut start = Vec::with_capacity(cells.len() + 1);
+        start.push(0);
+        start.extend(cells.iter().scan(0, |sum, cell| {
+            *sum += cell.faces.len();
+            Some(*sum)
+        }));
+        Self {
+            volume: cells.iter().map(|cell| cell.volume).collect(),
+            start,
+            neighbour: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(neighbour, _)| neighbour)).collect(),
+            weight: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(_, weight)| weight)).collect(),
+        }
+    }
+
+    /// The faces of one point: neighbours and weights.
+    pub fn faces(&self, point: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.start[point]..self.start[point + 1];
+        range.map(|face| (self.neighbour[face] as usize, self.weight[face]))
+    }
+
+    /// The most faces that any cell has.
+    pub fn most_faces(&self) -> usize {
+        self.start.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(0)
+    }
+}
+
+/// What lies across an edge of a cell.
+#[derive(Clone, Copy, PartialEq)]
+enum Across {
+    Wall,
+    Point(u32),
+}
+
+/// A convex polygon; edge `k` runs from corner `k` to the next, relative to the cell's point.
+#[derive(Default)]
+struct Polygon {
+    corners: Vec<(DVec2, Across)>,
+    scratch: Vec<(DVec2, Across)>,
+}
+
+impl Polygon {
+    /// Cuts away what lies beyond the line `x . direction = offset`.
+    fn cut(&mut self, direction: DVec2, offset: f64, across: Across) {
+        let outside = |corner: DVec2| corner.dot(direction) - offset;
+        if self.corners.iter().all(|&(corner, _)| outside(corner) <= 0.0) {
+            return;
+        }
+        self.scratch.clear();
+        for k in 0..self.corners.len() {
+            let (from, edge) = self.corners[k];
+            let (to, _) = self.corners[(k + 1) % self.corners.len()];
+            let (a, b) = (outside(from), outside(to));
+            let crossing = || from + (to - from) * (a / (a - b));
+            match (a <= 0.0, b <= 0.0) {
+                (true, true) => self.scratch.push((from, edge)),
+                (true, false) => {
+                    self.scratch.push((from, edge));
+                    self.scratch.push((crossing(), across));
+                }
+                (false, true) => self.scratch.push((crossing(), edge)),
+                (false, false) => {}
+            }
+        }
+        std::mem::swap(&mut self.corners, &mut self.scratch);
+    }
+
+    /// Distance of the farthest corner.
+    fn reach(&self) -> f64 {
+        self.corners.iter().map(|(corner, _)| corner.length_squared()).fold(0.0, f64::max).sqrt()
+    }
+}
+
+fn clip(position: &[DVec2], point: usize, size: DVec2, spacing: f64, grid: &Grid) -> Cell {
+    let own = position[point];
+    let (low, high) = (-own, size - own);
+    let mut polygon = Polygon::default();
+    polygon
+        .corners
+        .extend([low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|corner| (corner, Across::Wall)));
+    // Ring by ring, until no point farther away can reach the cell.
+    for ring in 0..=grid.rings() {
+        for other in grid.ring(own, ring).filter(|&other| other != point) {
+            let offset = position[other] - own;
+            polygon.cut(offset, 0.5 * offset.length_squared(), Across::Point(other as u32));
+        }
+        if 2.0 * polygon.reach() <= grid.reach(ring) {
+            break;
+        }
+    }
+    let mut cell = Cell { volume: 0.0, faces: Vec::with_capacity(polygon.corners.len()) };
+    for k in 0..polygon.corners.len() {
+        let (from, across) = polygon.corners[k];
+        let (to, _) = polygon.corners[(k + 1) % polygon.corners.len()];
+        cell.volume += 0.5 * from.perp_dot(to);
+        let length = from.distance(to);
+        if let Across::Point(other) = across
+            && length > LEAST_FACE * spacing
+        {
+            cell.faces.push((other, length / position[other as usize].distance(own)));
+        }
+    }
+    cell.faces.sort_unstable_by_key(|&(neighbour, _)| neighbour);
+    cell
+}
+
+/// Gives both sides of every face the mean of what they found; a face seen from one side alone is a rounding matter
+/// and goes.
+fn symmetrise(cells: &mut [Cell]) {
+    let seen: Vec<Vec<(u32, f64)>> = cells.iter().map(|cell| cell.faces.clone()).collect();
+    cells.par_iter_mut().enumerate().for_each(|(point, cell)| {
+        cell.faces.retain_mut(|(neighbour, weight)| {
+            let other = &seen[*neighbour as usize];
+            match other.binary_search_by_key(&(point as u32), |&(back, _)| back) {
+                Ok(found) => {
+                    *weight = 0.5 * (*weight + other[found].1);
+                    true
+                }
+                Err(_) => false,
+            }
+        });
+    });
+}

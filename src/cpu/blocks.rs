@@ -1,0 +1,88 @@
+//! Loops over blocks of points, on one core or on all, with the same bits either way.
+
+use rayon::prelude::*;
+
+pub use crate::step::BLOCK;
+
+/// Below this many points a loop runs on the calling thread: waking the others costs more than it saves.
+const SERIAL_BELOW: usize = 24 * 1024;
+/// Blocks that one thread takes at a time, and points over which one partial sum runs.
+const BLOCKS_A_TASK: usize = 32;
+const CHUNK: usize = BLOCK * BLOCKS_A_TASK;
+
+/// Number of blocks that hold `points` points.
+pub fn count(points: usize) -> usize {
+    points.div_ceil(BLOCK)
+}
+
+/// Points rounded up to whole blocks: the length of every per-point array.
+pub fn padded(points: usize) -> usize {
+    count(points) * BLOCK
+}
+
+/// Where component `slot` of `slots` stands for the first point of the pack that begins at `point`.
+#[inline(always)]
+pub fn at(point: usize, slot: usize, slots: usize) -> usize {
+    (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK
+}
+
+/// Runs `body(block, values)` for every block of an array with `slots` entries a point.
+pub fn for_each<R: Send>(out: &mut [R], slots: usize, body: impl Fn(usize, &mut [R]) + Sync + Send) {
+    let width = slots * BLOCK;
+    if out.len() < SERIAL_BELOW * slots {
+        out.chunks_mut(width).enumerate().for_each(|(block, values)| body(block, values));
+    } else {
+        out.par_chunks_mut(width)
+            .with_min_len(BLOCKS_A_TASK)
+            .enumerate()
+            .for_each(|(block, values)| body(block, values));
+    }
+}
+
+/// The same for two arrays at once.
+pub fn for_each_2<R: Send, S: Send>(
+    first: (&mut [R], usize),
+    second: (&mut [S], usize),
+    body: impl Fn(usize, &mut [R], &mut [S]) + Sync + Send,
+) {
+    let ((first, slots), (second, others)) = (first, second);
+    if first.len() < SERIAL_BELOW * slots {
+        let pairs = first.chunks_mut(slots * BLOCK).zip(second.chunks_mut(others * BLOCK));
+        pairs.enumerate().for_each(|(block, (a, b))| body(block, a, b));
+    } else {
+        first
+            .par_chunks_mut(slots * BLOCK)
+            .zip(second.par_chunks_mut(others * BLOCK))
+            .with_min_len(BLOCKS_A_TASK)
+            .enumerate()
+            .for_each(|(block, (a, b))| body(block, a, b));
+    }
+}
+
+/// Runs `body(first point, values)` over chunks of one to three per-point arrays and adds up what it returns. The chunks are the same
+/// on any number of threads, and their sums are added in order: same bits.
+pub fn sum_over<R: Send, const N: usize, const M: usize>(
+    arrays: [&mut [R]; N],
+    body: impl Fn(usize, [&mut [R]; N]) -> [f64; M] + Sync + Send,
+) -> [f64; M] {
+    let length = arrays.first().map_or(0, |array| array.len());
+    let mut rest = arrays;
+    let mut tasks: Vec<(usize, [&mut [R]; N])> = Vec::with_capacity(length.div_ceil(CHUNK));
+    let mut start = 0;
+    while start < length {
+        let width = CHUNK.min(length - start);
+        let mut taken: [&mut [R]; N] = std::array::from_fn(|_| Default::default());
+        for (taken, rest) in taken.iter_mut().zip(rest.iter_mut()) {
+            let (head, tail) = std::mem::take(rest).split_at_mut(width);
+            (*taken, *rest) = (head, tail);
+        }
+        tasks.push((start, taken));
+        start += width;
+    }
+    let partial: Vec<[f64; M]> = if length < SERIAL_BELOW {
+        tasks.into_iter().map(|(start, chunk)| body(start, chunk)).collect()
+    } else {
+        tasks.into_par_iter().map(|(start, chunk)| body(start, chunk)).collect()
+    };
+    partial.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
+}

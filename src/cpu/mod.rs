@@ -1,0 +1,5 @@
+//! The CPU engine.
+
+pub mod blocks;
+pub mod operations;
+pub mod real;

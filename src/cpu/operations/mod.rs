@@ -1,0 +1,9 @@
+//! The operations, one name each, on slices of `f32` or `f64`.
+
+pub mod conjugate_gradient;
+pub mod conservative;
+pub mod derivative;
+pub mod fit;
+pub mod moments;
+pub mod neighbours;
+pub mod remap;

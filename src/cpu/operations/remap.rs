@@ -1,0 +1,83 @@
+//! Advection by moving the points and carrying the fields back (the paper's section 5).
+//!
+//! Continuous: `Du/Dt` along the path of a fluid point. Discrete: the values `u'` live at the places the fluid moved
+//! to; a fit (2.5) there is evaluated where the points stand.
+
+use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::moments::COEFFICIENTS;
+use crate::cpu::real::Real;
+
+/// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity taken half a
+/// step back along the path; the fit of the point nearest to that place is evaluated there.
+pub fn remap_departure<T: Real>(
+    position: &[T],
+    support: &[T],
+    neighbours: &[u32],
+    count: &[u32],
+    capacity: usize,
+    size: [T; 2],
+    intermediate: &[T],
+    coefficients: &[T],
+    dt: T,
+    end: usize,
+    velocity: &mut [T],
+) {
+    let evaluate = |j: usize, [x, y]: [T; 2]| -> [T; 2] {
+        let per = T::from_f64(1.0) / support[j];
+        let (x, y) = ((x - position[2 * j]) * per, (y - position[2 * j + 1]) * per);
+        let basis = [x, y, x * x, x * y, y * y];
+        let first = blocks::at(j, 0, 2 * COEFFICIENTS);
+        let part = |c: usize| {
+            let mut sum = intermediate[2 * j + c];
+            for (k, term) in basis.into_iter().enumerate() {
+                sum += coefficients[first + (c * COEFFICIENTS + k) * BLOCK] * term;
+            }
+            sum
+        };
+        [part(0), part(1)]
+    };
+    blocks::for_each(velocity, 2, |block, out| {
+        for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
+            let here = [position[2 * i], position[2 * i + 1]];
+            let inside = |x: T, length: T| x.max(T::zero()).min(length);
+            let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
+            let own = [intermediate[2 * i], intermediate[2 * i + 1]];
+            let from = back(evaluate(i, back(own)));
+            let value = evaluate(nearest(position, neighbours, count, capacity, from, i), from);
+            let lane = 2 * (i - block * BLOCK);
+            out[lane..lane + 2].copy_from_slice(&value);
+        }
+    });
+}
+
+/// The point nearest to `place`, found by walking from point to nearer neighbour, beginning at `from`.
+#[inline(always)]
+fn nearest<T: Real>(
+    position: &[T],
+    neighbours: &[u32],
+    count: &[u32],
+    capacity: usize,
+    place: [T; 2],
+    from: usize,
+) -> usize {
+    let square = |j: usize| {
+        let (dx, dy) = (position[2 * j] - place[0], position[2 * j + 1] - place[1]);
+        dx * dx + dy * dy
+    };
+    let (mut at, mut least) = (from, square(from));
+    loop {
+        let mut next = at;
+        let first = blocks::at(at, 0, capacity);
+        for slot in 0..(count[at] as usize).min(capacity) {
+            let j = neighbours[first + slot * BLOCK] as usize;
+            let distance = square(j);
+            if distance < least {
+                (next, least) = (j, distance);
+            }
+        }
+        if next == at {
+            return at;
+        }
+        at = next;
+    }
+}

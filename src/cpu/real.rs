@@ -1,0 +1,277 @@
+//! The float types that the operations run in, and packs of them: several points side by side in one register.
+
+use std::fmt::{Debug, LowerExp};
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use bytemuck::Pod;
+use wide::{f32x8, f64x4};
+
+/// `f32` or `f64`.
+pub trait Real:
+    Pod
+    + Debug
+    + LowerExp
+    + Default
+    + PartialOrd
+    + Send
+    + Sync
+    + Sum
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    type Pack: Pack<Self>;
+    const EPSILON: Self;
+    fn from_f64(value: f64) -> Self;
+    fn to_f64(self) -> f64;
+    fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
+    fn is_finite(self) -> bool;
+
+    fn zero() -> Self {
+        Self::default()
+    }
+
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+}
+
+/// A few consecutive points' values, one lane each.
+pub trait Pack<T: Real>:
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    const LANES: usize;
+    fn splat(value: T) -> Self;
+    /// The first `LANES` values.
+    fn load(values: &[T]) -> Self;
+    fn store(self, values: &mut [T]);
+    fn from_lanes(lane: impl FnMut(usize) -> T) -> Self;
+    fn lane(&self, lane: usize) -> T;
+    fn sqrt(self) -> Self;
+    fn max(self, other: Self) -> Self;
+    /// `yes` where `self > bound`, else `no`, lane by lane.
+    fn select_above(self, bound: Self, yes: Self, no: Self) -> Self;
+
+    fn zero() -> Self {
+        Self::splat(T::zero())
+    }
+
+    /// `values[index[lane]]`.
+    ///
+    /// # Safety
+    /// The first `LANES` indexes are below `values.len()`.
+    #[inline(always)]
+    unsafe fn gather(values: &[T], index: &[u32]) -> Self {
+        debug_assert!(index[..Self::LANES].iter().all(|&i| (i as usize) < values.len()));
+        let index = &index[..Self::LANES];
+        // SAFETY: the caller's promise.
+        Self::from_lanes(|lane| unsafe { *values.get_unchecked(index[lane] as usize) })
+    }
+
+    /// The x and y parts of interleaved vectors: `values[2 index]`, `values[2 index + 1]`.
+    ///
+    /// # Safety
+    /// Twice each of the first `LANES` indexes, plus one, is below `values.len()`.
+    #[inline(always)]
+    unsafe fn gather_vectors(values: &[T], index: &[u32]) -> [Self; 2] {
+        debug_assert!(index[..Self::LANES].iter().all(|&i| 2 * (i as usize) + 1 < values.len()));
+        let index = &index[..Self::LANES];
+        // SAFETY: the caller's promise.
+        let part = |c: usize| Self::from_lanes(|lane| unsafe { *values.get_unchecked(2 * index[lane] as usize + c) });
+        [part(0), part(1)]
+    }
+
+    /// The x and y parts of the first `LANES` interleaved vectors.
+    #[inline(always)]
+    fn load_vectors(values: &[T]) -> [Self; 2] {
+        let values = &values[..2 * Self::LANES];
+        [Self::from_lanes(|lane| values[2 * lane]), Self::from_lanes(|lane| values[2 * lane + 1])]
+    }
+}
+
+macro_rules! real {
+    ($real:ty, $pack:ty, $lanes:literal) => {
+        impl Real for $real {
+            type Pack = $pack;
+            const EPSILON: Self = <$real>::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as $real
+            }
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$real>::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$real>::abs(self)
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                <$real>::is_finite(self)
+            }
+        }
+
+        impl Pack<$real> for $pack {
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn splat(value: $real) -> Self {
+                <$pack>::splat(value)
+            }
+
+            #[inline(always)]
+            fn load(values: &[$real]) -> Self {
+                let values: &[$real; $lanes] = values[..$lanes].try_into().unwrap_or(&[0.0; $lanes]);
+                <$pack>::new(*values)
+            }
+
+            #[inline(always)]
+            fn store(self, values: &mut [$real]) {
+                values[..$lanes].copy_from_slice(&self.to_array());
+            }
+
+            #[inline(always)]
+            fn from_lanes(lane: impl FnMut(usize) -> $real) -> Self {
+                <$pack>::new(std::array::from_fn(lane))
+            }
+
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> $real {
+                self.as_array()[lane]
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$pack>::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.fast_max(other)
+            }
+
+            #[inline(always)]
+            fn select_above(self, bound: Self, yes: Self, no: Self) -> Self {
+                self.simd_gt(bound).select(yes, no)
+            }
+        }
+    };
+}
+
+/// A pack of one: the same arithmetic for a single point.
+#[derive(Debug, Clone, Copy)]
+pub struct One<T>(pub T);
+
+macro_rules! one_operator {
+    ($($operator:ident $function:ident $sign:tt),*) => {$(
+        impl<T: Real> $operator for One<T> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
+            }
+        }
+    )*};
+}
+
+one_operator!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl<T: Real> Neg for One<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<T: Real> AddAssign for One<T> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        self.0 += other.0;
+    }
+}
+
+impl<T: Real> SubAssign for One<T> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        self.0 -= other.0;
+    }
+}
+
+impl<T: Real> Pack<T> for One<T> {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self(value)
+    }
+
+    #[inline(always)]
+    fn load(values: &[T]) -> Self {
+        Self(values[0])
+    }
+
+    #[inline(always)]
+    fn store(self, values: &mut [T]) {
+        values[0] = self.0;
+    }
+
+    #[inline(always)]
+    fn from_lanes(mut lane: impl FnMut(usize) -> T) -> Self {
+        Self(lane(0))
+    }
+
+    #[inline(always)]
+    fn lane(&self, _: usize) -> T {
+        self.0
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+
+    #[inline(always)]
+    fn select_above(self, bound: Self, yes: Self, no: Self) -> Self {
+        if self.0 > bound.0 { yes } else { no }
+    }
+}
+
+real!(f64, f64x4, 4);
+real!(f32, f32x8, 8);

@@ -1,0 +1,173 @@
+//! What the engines store: every array by name, with its unit, its shape, and what it takes per point.
+
+use serde::Serialize;
+
+use super::{BLOCK, Sizes};
+
+/// Which places of the points an array or an operation belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Points {
+    /// Where the points stand: their initial places. Computed once.
+    Standing,
+    /// Where the flow has moved them within this step: the paper's forward remap alone.
+    Moved,
+}
+
+/// One array in an engine's memory.
+///
+/// "Interleaved" holds x and y of one point side by side. "Blocked" holds `k` numbers a point, in blocks of
+/// [`BLOCK`] points, number by number: entry `n` of point `i` stands at `(i / BLOCK) BLOCK k + n BLOCK + i % BLOCK`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Buffer {
+    /// Places, m; interleaved.
+    Position(Points),
+    /// Where each cell's points begin in `CellPoints`; one more entry than cells.
+    CellStart(Points),
+    /// The points, cell by cell, ascending within a cell.
+    CellPoints(Points),
+    /// Neighbours of each point, blocked, `capacity` slots; unused slots hold the point itself.
+    Neighbours(Points),
+    /// Slots of `Neighbours` in use.
+    NeighbourCount(Points),
+    /// Radius of each point's neighbourhood, m: `r_e`, or wider where the fit needed more points.
+    Support(Points),
+    /// Cholesky factor of each point's 5x5 normal matrix, 15 numbers, blocked.
+    Factor(Points),
+    /// How far down the ladder each point's fit stands: see [`super::Rung`].
+    Rung(Points),
+    /// Volume of each point's cell, m^2.
+    Volume,
+    /// Points across the faces of each Voronoi cell, blocked, `face_capacity` slots; unused slots hold the point itself.
+    FaceNeighbours,
+    /// `w_ij = A_ij / |d_ij|` of those faces, no unit, blocked; zero in unused slots.
+    FaceWeight,
+    /// Slots of `FaceNeighbours` in use.
+    FaceCount,
+    /// Outward unit normal at boundary points, zero inside; interleaved.
+    Normal,
+    /// Collocated pressure matrix: the factor of `p_j - p_i` for every neighbour slot, 1/m^2, blocked.
+    MatrixRow,
+    /// Collocated pressure matrix: what each row was multiplied by, 1 inside, 1/m at the boundary.
+    RowScale,
+    /// Diagonal of the pressure matrix: no unit (conservative, `sum_j w_ij`) or 1/m^2 (collocated, `-sum_j a_ij`); 1 in padding.
+    Diagonal,
+    /// `u` after the points were carried back, before forces, m/s; interleaved.
+    Velocity,
+    /// Change of `u` by the forces of half a step (reflection) or a whole one (projection), m/s; interleaved.
+    Kick,
+    /// Divergence-free velocity: what is reported, m/s; interleaved. Within the step first `u*`.
+    Projected,
+    /// Velocity that moves the points, m/s; interleaved. Reflection alone.
+    Reflected,
+    /// Relaxed mean of the pressure's kicks, m/s; interleaved. Reflection alone.
+    PressureKick,
+    /// The five scaled coefficients of the fit of u, then of v, m/s, blocked.
+    Coefficients,
+    /// Pressure `p`, Pa.
+    Pressure,
+    /// Right side of the pressure equation.
+    Source,
+    /// Solver vectors.
+    Residual,
+    Direction,
+    Product,
+    /// BiCGStab alone.
+    Shadow,
+    Stabilised,
+    StabilisedProduct,
+    /// `Projected` at the last report, m/s, to measure the rate of change from; interleaved.
+    Reported,
+}
+
+/// What an array's entries are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Element {
+    /// The engine's float type.
+    Real,
+    /// `u32`.
+    Index,
+}
+
+impl Buffer {
+    /// Name in snake case, as WGSL and `plan` spell it.
+    pub fn name(self) -> String {
+        let (name, points) = match self {
+            Buffer::Position(points) => ("position", Some(points)),
+            Buffer::CellStart(points) => ("cell_start", Some(points)),
+            Buffer::CellPoints(points) => ("cell_points", Some(points)),
+            Buffer::Neighbours(points) => ("neighbours", Some(points)),
+            Buffer::NeighbourCount(points) => ("neighbour_count", Some(points)),
+            Buffer::Support(points) => ("support", Some(points)),
+            Buffer::Factor(points) => ("factor", Some(points)),
+            Buffer::Rung(points) => ("rung", Some(points)),
+            Buffer::Volume => ("volume", None),
+            Buffer::FaceNeighbours => ("face_neighbours", None),
+            Buffer::FaceWeight => ("face_weight", None),
+            Buffer::FaceCount => ("face_count", None),
+            Buffer::Normal => ("normal", None),
+            Buffer::MatrixRow => ("matrix_row", None),
+            Buffer::RowScale => ("row_scale", None),
+            Buffer::Diagonal => ("diagonal", None),
+            Buffer::Velocity => ("velocity", None),
+            Buffer::Kick => ("kick", None),
+            Buffer::Projected => ("projected", None),
+            Buffer::Reflected => ("reflected", None),
+            Buffer::PressureKick => ("pressure_kick", None),
+            Buffer::Coefficients => ("coefficients", None),
+            Buffer::Pressure => ("pressure", None),
+            Buffer::Source => ("source", None),
+            Buffer::Residual => ("residual", None),
+            Buffer::Direction => ("direction", None),
+            Buffer::Product => ("product", None),
+            Buffer::Shadow => ("shadow", None),
+            Buffer::Stabilised => ("stabilised", None),
+            Buffer::StabilisedProduct => ("stabilised_product", None),
+            Buffer::Reported => ("reported", None),
+        };
+        match points {
+            Some(Points::Moved) => format!("moved_{name}"),
+            _ => name.to_owned(),
+        }
+    }
+
+    pub fn element(self) -> Element {
+        match self {
+            Buffer::CellStart(_)
+            | Buffer::CellPoints(_)
+            | Buffer::Neighbours(_)
+            | Buffer::NeighbourCount(_)
+            | Buffer::Rung(_)
+            | Buffer::FaceNeighbours
+            | Buffer::FaceCount => Element::Index,
+            _ => Element::Real,
+        }
+    }
+
+    /// Numbers a point; `None` for the cell list's starts, which have one a cell.
+    pub fn per_point(self, sizes: &Sizes) -> Option<usize> {
+        Some(match self {
+            Buffer::CellStart(_) => return None,
+            Buffer::Position(_)
+            | Buffer::Normal
+            | Buffer::Velocity
+            | Buffer::Kick
+            | Buffer::Projected
+            | Buffer::Reflected
+            | Buffer::PressureKick
+            | Buffer::Reported => 2,
+            Buffer::Neighbours(_) | Buffer::MatrixRow => sizes.capacity,
+            Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
+            Buffer::Factor(_) => 15,
+            Buffer::Coefficients => 10,
+            _ => 1,
+        })
+    }
+
+    /// Entries of the array: whole blocks of points, or one a cell and one more.
+    pub fn length(self, sizes: &Sizes) -> usize {
+        match self.per_point(sizes) {
+            Some(count) => sizes.points.div_ceil(BLOCK) * BLOCK * count,
+            None => sizes.cells + 1,
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The time step as data: what is stored, which operations run on it, in which order.
+//!
+//! One step, for a scene with everything (kick, drift, kick, seen from the middle of a kick):
+//!
+//! ```text
+//! drift   fit_velocity        fits of the velocity u' that moves the points
+//!         remap_departure     u(r0) = u'(where the fluid came from)            values stand on the points again
+//! kick    estimate_middle     u_m ~ u + last half kick
+//!         viscosity           kick = (dt/2) nu lap u_m
+//!         predict             u* = u + kick
+//!         divergence          b = -(rho / (dt/2)) V div u*
+//!         conjugate_gradient  K p = b                                          recomputed residual below the tolerance
+//!         correct_by_fit      u_m = u* - (dt/2 rho) grad p                     div u_m = 0: what is reported
+//!         reflect             u' = u_m + kick - (dt/2 rho) grad p
+//! ```
+//!
+//! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
+
+mod buffer;
+mod grid;
+mod operation;
+mod plan;
+mod rung;
+
+pub use buffer::{Buffer, Element, Points};
+pub use grid::Grid;
+pub use operation::Operation;
+pub use plan::{Plan, Sizes};
+pub use rung::Rung;
+
+/// Points a block: multi-component arrays keep the numbers of 32 points together, number by number, so that
+/// neighbouring lanes of either engine read neighbouring addresses.
+pub const BLOCK: usize = 32;
+/// Share of the newest pressure kick in the relaxed mean that the reflection uses.
+pub const PRESSURE_RELAXATION: f64 = 0.5;

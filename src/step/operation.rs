@@ -1,0 +1,163 @@
+//! The operations: one name each, in three places: here, as a CPU function, as a WGSL file.
+
+use serde::Serialize;
+
+use super::{Buffer, Points};
+
+/// One thing that an engine does to its arrays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Operation {
+    /// Sorts the points into cells: count, running sum, scatter.
+    BuildCells(Points),
+    /// Lists the points within the radius of each point.
+    FindNeighbours(Points),
+    /// Forms and factorises the 5x5 normal matrix of each point's least squares.
+    Factorise(Points),
+    /// Takes the points whose factorisation failed down the ladder: wider radius, linear fit, nearest value.
+    WidenSupport(Points),
+    /// Rows of the collocated pressure matrix: fitted Laplacian inside, fitted normal derivative at walls.
+    AssembleCollocated,
+
+    /// Fits the velocity that moves the points.
+    FitVelocity(Points),
+    /// Evaluates the fits where the fluid came from: the velocity carried back to the standing points.
+    RemapDeparture,
+    /// Moves the interior points with the flow.
+    MovePoints,
+    /// Evaluates the fit of each moved point at its standing place (the paper's section 5).
+    RemapForward,
+    /// No advection: the velocity after the forces begins the next step.
+    KeepVelocity,
+
+    /// Forgets the kick of the last step.
+    ClearKick,
+    /// Estimates the velocity in the middle of the kick from the last one, then forgets that.
+    EstimateMiddle,
+    /// Adds `dt nu lap u` to the kick.
+    Viscosity,
+    /// `u* = u + kick`.
+    Predict,
+    /// Source of the conservative pressure equation: the volume flux of `u*` out of every cell.
+    Divergence,
+    /// Source of the collocated pressure equation: the fitted divergence inside, the normal velocity to be stopped at walls.
+    CollocatedSource,
+    /// Solves the conservative equation: Jacobi-preconditioned conjugate gradients.
+    ConjugateGradient,
+    /// Solves either equation: Jacobi-preconditioned BiCGStab with the rank-one shift.
+    Bicgstab,
+    /// Solves either equation with a sparse factorisation made once, on the host.
+    DirectSolve,
+    /// `u = u* - (dt / rho) grad p` with the fitted gradient.
+    CorrectByFit,
+    /// The same with minus the adjoint of the divergence.
+    CorrectByAdjoint,
+    /// Gives the walls their velocity back.
+    HoldWalls,
+    /// Goes on through the divergence-free velocity for the second half of the kick.
+    Reflect,
+}
+
+impl Operation {
+    /// Name in snake case: of the WGSL file or folder, and as `plan` prints it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Operation::BuildCells(_) => "build_cells",
+            Operation::FindNeighbours(_) => "find_neighbours",
+            Operation::Factorise(_) => "factorise",
+            Operation::WidenSupport(_) => "widen_support",
+            Operation::AssembleCollocated => "assemble_collocated",
+            Operation::FitVelocity(_) => "fit_velocity",
+            Operation::RemapDeparture => "remap_departure",
+            Operation::MovePoints => "move_points",
+            Operation::RemapForward => "remap_forward",
+            Operation::KeepVelocity => "keep_velocity",
+            Operation::ClearKick => "clear_kick",
+            Operation::EstimateMiddle => "estimate_middle",
+            Operation::Viscosity => "viscosity",
+            Operation::Predict => "predict",
+            Operation::Divergence => "divergence",
+            Operation::CollocatedSource => "collocated_source",
+            Operation::ConjugateGradient => "conjugate_gradient",
+            Operation::Bicgstab => "bicgstab",
+            Operation::DirectSolve => "direct_solve",
+            Operation::CorrectByFit => "correct_by_fit",
+            Operation::CorrectByAdjoint => "correct_by_adjoint",
+            Operation::HoldWalls => "hold_walls",
+            Operation::Reflect => "reflect",
+        }
+    }
+
+    /// Arrays that the operation reads and does not change.
+    pub fn reads(self, plan: &super::Plan) -> Vec<Buffer> {
+        use Buffer::*;
+        let fits = |points| {
+            vec![Position(points), Neighbours(points), NeighbourCount(points), Support(points), Factor(points)]
+        };
+        let with = |mut list: Vec<Buffer>, more: &[Buffer]| {
+            list.extend_from_slice(more);
+            list
+        };
+        let faces = [FaceNeighbours, FaceWeight, FaceCount];
+        let standing = Points::Standing;
+        match self {
+            Operation::BuildCells(points) => vec![Position(points)],
+            Operation::FindNeighbours(points) => vec![Position(points), CellStart(points), CellPoints(points)],
+            Operation::Factorise(points) => {
+                vec![Position(points), Neighbours(points), NeighbourCount(points), Support(points)]
+            }
+            Operation::WidenSupport(points) => vec![Position(points), CellStart(points), CellPoints(points)],
+            Operation::AssembleCollocated => with(fits(standing), &[Normal]),
+            Operation::FitVelocity(points) => with(fits(points), &[plan.moving()]),
+            Operation::RemapDeparture => {
+                let points = [Position(standing), Neighbours(standing), NeighbourCount(standing), Support(standing)];
+                with(points.to_vec(), &[plan.moving(), Coefficients])
+            }
+            Operation::MovePoints => vec![Position(standing), plan.moving()],
+            Operation::RemapForward => {
+                vec![Position(standing), Position(Points::Moved), Support(Points::Moved), plan.moving(), Coefficients]
+            }
+            Operation::KeepVelocity => vec![plan.moving()],
+            Operation::ClearKick => vec![],
+            Operation::EstimateMiddle => vec![Velocity],
+            Operation::Viscosity => with(fits(standing), &[plan.diffused()]),
+            Operation::Predict => vec![Velocity, Kick],
+            Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
+            Operation::CollocatedSource => with(fits(standing), &[Normal, RowScale, Velocity, Projected]),
+            Operation::ConjugateGradient => with(faces.to_vec(), &[Diagonal, Volume, Source]),
+            Operation::Bicgstab | Operation::DirectSolve => with(plan.matrix(), &[Diagonal, Volume, Source]),
+            Operation::CorrectByFit => with(fits(standing), &[Pressure]),
+            Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
+            Operation::HoldWalls => vec![Velocity],
+            Operation::Reflect => vec![Velocity, Projected],
+        }
+    }
+
+    /// Arrays that the operation changes.
+    pub fn writes(self) -> Vec<Buffer> {
+        use Buffer::*;
+        match self {
+            Operation::BuildCells(points) => vec![CellStart(points), CellPoints(points)],
+            Operation::FindNeighbours(points) => vec![Neighbours(points), NeighbourCount(points)],
+            Operation::Factorise(points) => vec![Factor(points), Rung(points)],
+            Operation::WidenSupport(points) => {
+                vec![Support(points), Neighbours(points), NeighbourCount(points), Factor(points), Rung(points)]
+            }
+            Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
+            Operation::FitVelocity(_) => vec![Coefficients],
+            Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
+            Operation::MovePoints => vec![Position(Points::Moved)],
+            Operation::ClearKick | Operation::Viscosity => vec![Kick],
+            Operation::EstimateMiddle => vec![Projected, Kick],
+            Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
+                vec![Projected]
+            }
+            Operation::Divergence | Operation::CollocatedSource => vec![Source],
+            Operation::ConjugateGradient => vec![Pressure, Residual, Direction, Product],
+            Operation::Bicgstab => {
+                vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct]
+            }
+            Operation::DirectSolve => vec![Pressure],
+            Operation::Reflect => vec![Kick, PressureKick, Reflected],
+        }
+    }
+}

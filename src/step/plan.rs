@@ -1,0 +1,151 @@
+//! From a case to what runs: the operations in order, and the arrays that they need.
+
+use serde::Serialize;
+
+use super::{Buffer, Element, Operation, Points};
+use crate::case::{Case, Gradient, PressureForm, Remap, Solver, Splitting};
+
+/// How many of everything there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Sizes {
+    pub points: usize,
+    pub interior: usize,
+    /// Most neighbours that a point's list holds.
+    pub capacity: usize,
+    /// Most faces that a cell has.
+    pub face_capacity: usize,
+    /// Cells of the neighbour search.
+    pub cells: usize,
+}
+
+/// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Plan {
+    /// Done once, in order.
+    pub setup: Vec<Operation>,
+    /// The drift: carries the velocity along the flow. Empty without advection but for `KeepVelocity`.
+    pub drift: Vec<Operation>,
+    /// The kick: forces, pressure, correction.
+    pub kick: Vec<Operation>,
+    /// The pressure equation, where the scene has one.
+    pub form: Option<PressureForm>,
+    pub splitting: Splitting,
+}
+
+impl Plan {
+    pub fn new(case: &Case) -> Self {
+        use Operation::*;
+        let effects = &case.effects;
+        let splitting = case.time.splitting;
+        let reflects = splitting == Splitting::Reflection;
+        let standing = Points::Standing;
+        let mut setup =
+            vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
+        let mut drift = Vec::new();
+        match effects.advection.as_ref().map(|advection| advection.remap) {
+            None => drift.push(KeepVelocity),
+            Some(Remap::Departure) => drift.extend([FitVelocity(standing), RemapDeparture]),
+            Some(Remap::Forward) => {
+                let moved = Points::Moved;
+                drift.push(MovePoints);
+                drift.extend([BuildCells(moved), FindNeighbours(moved), Factorise(moved), WidenSupport(moved)]);
+                drift.extend([FitVelocity(moved), RemapForward]);
+            }
+        }
+        let mut kick = vec![if reflects { EstimateMiddle } else { ClearKick }];
+        if effects.viscosity.is_some() {
+            kick.push(Viscosity);
+        }
+        kick.push(Predict);
+        if let Some(pressure) = &effects.pressure {
+            let (source, default) = match pressure.form {
+                PressureForm::Conservative => (Divergence, Solver::ConjugateGradient),
+                PressureForm::Collocated => {
+                    setup.push(AssembleCollocated);
+                    (CollocatedSource, Solver::Bicgstab)
+                }
+            };
+            kick.push(source);
+            kick.push(match pressure.solver.unwrap_or(default) {
+                Solver::ConjugateGradient => ConjugateGradient,
+                Solver::Bicgstab => Bicgstab,
+                Solver::Direct => DirectSolve,
+            });
+            kick.push(match pressure.gradient.unwrap_or(Gradient::Fit) {
+                Gradient::Fit => CorrectByFit,
+                Gradient::Adjoint => CorrectByAdjoint,
+            });
+            if pressure.form == PressureForm::Collocated {
+                kick.push(HoldWalls);
+            }
+        }
+        if reflects {
+            kick.push(Reflect);
+        }
+        Self { setup, drift, kick, form: effects.pressure.as_ref().map(|pressure| pressure.form), splitting }
+    }
+
+    /// Every operation, setup first.
+    pub fn operations(&self) -> impl Iterator<Item = Operation> + '_ {
+        self.setup.iter().chain(&self.drift).chain(&self.kick).copied()
+    }
+
+    /// The velocity that moves the points.
+    pub fn moving(&self) -> Buffer {
+        match self.splitting {
+            Splitting::Reflection => Buffer::Reflected,
+            Splitting::Projection => Buffer::Projected,
+        }
+    }
+
+    /// The velocity whose Laplacian is taken.
+    pub fn diffused(&self) -> Buffer {
+        match self.splitting {
+            Splitting::Reflection => Buffer::Projected,
+            Splitting::Projection => Buffer::Velocity,
+        }
+    }
+
+    /// The arrays that hold the pressure matrix.
+    pub fn matrix(&self) -> Vec<Buffer> {
+        match self.form {
+            Some(PressureForm::Conservative) => {
+                vec![Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount]
+            }
+            Some(PressureForm::Collocated) => {
+                let points = Points::Standing;
+                vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points), Buffer::MatrixRow]
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// The viscous term and the source reach the walls too: the collocated wall rows need `u*` there.
+    pub fn forces_reach_walls(&self) -> bool {
+        self.form == Some(PressureForm::Collocated)
+    }
+
+    /// Every array that some operation touches, and `Volume` and `Reported`, which the reports need; in a fixed order.
+    pub fn buffers(&self) -> Vec<Buffer> {
+        let mut buffers: Vec<Buffer> =
+            self.operations().flat_map(|operation| [operation.reads(self), operation.writes()].concat()).collect();
+        buffers.extend([Buffer::Volume, Buffer::Reported, Buffer::Projected, Buffer::Velocity]);
+        buffers.sort_unstable();
+        buffers.dedup();
+        buffers
+    }
+
+    /// Bytes of one array, for floats of `real` bytes.
+    pub fn bytes(&self, buffer: Buffer, sizes: &Sizes, real: usize) -> usize {
+        let entry = match buffer.element() {
+            Element::Real => real,
+            Element::Index => 4,
+        };
+        buffer.length(sizes) * entry
+    }
+
+    /// Bytes of all arrays.
+    pub fn total_bytes(&self, sizes: &Sizes, real: usize) -> usize {
+        self.buffers().into_iter().map(|buffer| self.bytes(buffer, sizes, real)).sum()
+    }
+}
