@@ -1,5 +1,6 @@
 //! Stillpoint: meshfree simulation of 2D incompressible flow on points that stand still.
 
 pub mod case;
+pub mod measure;
 pub mod simulation;
 pub mod snapshot;
