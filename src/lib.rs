@@ -2,5 +2,6 @@
 
 pub mod case;
 pub mod measure;
+pub mod output;
 pub mod simulation;
 pub mod snapshot;
