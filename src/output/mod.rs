@@ -4,6 +4,7 @@ mod diagnostics;
 mod error;
 mod file;
 mod folder;
+pub mod picture;
 pub mod points;
 mod summary;
 pub mod vtu;
