@@ -173,6 +173,17 @@ mod tests {
     }
 
     #[test]
+    fn numbers_read_back_to_the_same_bits() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        for k in 1..300 {
+            let time = f64::from(k).sqrt() * 10f64.powi(k % 40 - 20) / 3.0;
+            Summary { time, ..summary() }.write(&path).unwrap();
+            assert_eq!(Summary::read(&path).unwrap().time, time);
+        }
+    }
+
+    #[test]
     fn not_a_number_is_refused_by_name() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
