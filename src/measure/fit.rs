@@ -46,7 +46,7 @@ pub struct Fit {
     root: Vec<f64>,
     /// Orthonormal columns, one after another.
     q: Vec<f64>,
-    /// Upper triangle, `r[row][column]`.
+    /// Columns of the upper triangle.
     r: [[f64; LARGEST]; LARGEST],
 }
 
@@ -67,7 +67,7 @@ impl Fit {
             }
         }
         let mut r = [[0.0; LARGEST]; LARGEST];
-        for k in 0..terms {
+        for (k, upper) in r.iter_mut().enumerate().take(terms) {
             let (done, rest) = q.split_at_mut(k * rows);
             let column = &mut rest[..rows];
             let length = norm(column);
@@ -76,7 +76,7 @@ impl Fit {
                 for (i, earlier) in done.chunks_exact(rows).enumerate() {
                     let along: f64 = earlier.iter().zip(&*column).map(|(a, b)| a * b).sum();
                     column.iter_mut().zip(earlier).for_each(|(value, e)| *value -= along * e);
-                    r[i][k] += along;
+                    upper[i] += along;
                 }
             }
             let left = norm(column);
@@ -84,7 +84,7 @@ impl Fit {
                 return None;
             }
             column.iter_mut().for_each(|value| *value /= left);
-            r[k][k] = left;
+            upper[k] = left;
         }
         Some(Self { terms, radius, root, q, r })
     }
@@ -103,7 +103,7 @@ impl Fit {
     fn coefficient(&self, k: usize) -> Vec<f64> {
         let mut z = [0.0; LARGEST];
         for i in k..self.terms {
-            let below: f64 = (k..i).map(|j| self.r[j][i] * z[j]).sum();
+            let below: f64 = (k..i).map(|j| self.r[i][j] * z[j]).sum();
             z[i] = (f64::from(i == k) - below) / self.r[i][i];
         }
         let rows = self.root.len();

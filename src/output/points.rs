@@ -20,10 +20,10 @@ const HEADER: &str = "x,y,u,v,p";
 pub fn write(path: &Path, snapshot: &Snapshot) -> Result<(), OutputError> {
     check(snapshot)?;
     write_whole(path, |file| {
-        let rows = snapshot.position.iter().zip(&snapshot.velocity).zip(&snapshot.pressure);
+        let mut rows = snapshot.position.iter().zip(&snapshot.velocity).zip(&snapshot.pressure);
         writeln!(file, "{HEADER}")
             .and_then(|()| {
-                rows.map(|((x, u), p)| writeln!(file, "{:?},{:?},{:?},{:?},{p:?}", x.x, x.y, u.x, u.y)).collect()
+                rows.try_for_each(|((x, u), p)| writeln!(file, "{:?},{:?},{:?},{:?},{p:?}", x.x, x.y, u.x, u.y))
             })
             .map_err(OutputError::io(path))
     })

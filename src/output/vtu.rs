@@ -46,7 +46,8 @@ fn document(out: &mut impl Write, snapshot: &Snapshot) -> io::Result<()> {
     array(out, "Int64", "connectivity", 1, &count(0))?;
     array(out, "Int64", "offsets", 1, &count(1))?;
     array(out, "UInt8", "types", 1, &vec![VERTEX; snapshot.position.len()])?;
-    writeln!(out, "</Cells>\n{}", r#"<PointData Scalars="pressure" Vectors="velocity">"#)?;
+    writeln!(out, "</Cells>")?;
+    writeln!(out, r#"<PointData Scalars="pressure" Vectors="velocity">"#)?;
     array(out, "Float64", "pressure", 1, &pressure)?;
     array(out, "Float64", "velocity", 3, &triples(&snapshot.velocity))?;
     writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")

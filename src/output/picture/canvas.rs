@@ -1,6 +1,7 @@
 //! A picture in memory, with shapes drawn by their distance functions: the edge pixel's share is its distance from the
 //! outline, which is all the anti-aliasing that lines, discs and arrows need.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::DVec2;
@@ -41,35 +42,32 @@ impl Canvas {
         }
     }
 
+    fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.image.width()), f64::from(self.image.height()))
+    }
+
     /// Fills where `distance` (pixels, negative inside) is below zero, within the box from `low` to `high`.
     fn fill(&mut self, low: DVec2, high: DVec2, colour: Rgb, alpha: f64, distance: impl Fn(DVec2) -> f64) {
-        let size = DVec2::new(f64::from(self.image.width()), f64::from(self.image.height()));
-        let (low, high) = ((low - 1.0).max(DVec2::ZERO), (high + 1.0).min(size));
-        for y in low.y.floor() as i64..high.y.ceil() as i64 {
-            for x in low.x.floor() as i64..high.x.ceil() as i64 {
-                let cover = 0.5 - distance(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
-                if cover > 0.0 {
-                    self.blend(x, y, colour, alpha * cover.min(1.0));
-                }
-            }
-        }
+        cover(self.size(), low, high, distance, |x, y, share| self.blend(x, y, colour, alpha * share));
     }
 
     /// A straight line with round ends.
     pub fn line(&mut self, from: DVec2, to: DVec2, width: f64, colour: Rgb, alpha: f64) {
-        let half = 0.5 * width;
-        let along = to - from;
-        let scale = 1.0 / along.length_squared().max(f64::MIN_POSITIVE);
-        self.fill(from.min(to) - half, from.max(to) + half, colour, alpha, |at| {
-            let share = ((at - from).dot(along) * scale).clamp(0.0, 1.0);
-            at.distance(from + share * along) - half
-        });
+        segment(self.size(), from, to, width, |x, y, share| self.blend(x, y, colour, alpha * share));
     }
 
-    /// Lines from point to point.
+    /// Lines from point to point, as one shape: where the soft edges of short lines overlap, they don't add up.
     pub fn polyline(&mut self, points: &[DVec2], width: f64, colour: Rgb) {
+        let mut cover = BTreeMap::<(i64, i64), f64>::new();
         for pair in points.windows(2) {
-            self.line(pair[0], pair[1], width, colour, 1.0);
+            let size = self.size();
+            segment(size, pair[0], pair[1], width, |x, y, share| {
+                let most = cover.entry((y, x)).or_insert(0.0);
+                *most = most.max(share);
+            });
+        }
+        for ((y, x), share) in cover {
+            self.blend(x, y, colour, share);
         }
     }
 
@@ -113,6 +111,31 @@ impl Canvas {
     }
 }
 
+/// Calls `paint` with each pixel of a picture of this size that a shape covers, and the share it covers.
+fn cover(size: DVec2, low: DVec2, high: DVec2, distance: impl Fn(DVec2) -> f64, mut paint: impl FnMut(i64, i64, f64)) {
+    let (low, high) = ((low - 1.0).max(DVec2::ZERO), (high + 1.0).min(size));
+    for y in low.y.floor() as i64..high.y.ceil() as i64 {
+        for x in low.x.floor() as i64..high.x.ceil() as i64 {
+            let share = 0.5 - distance(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
+            if share > 0.0 {
+                paint(x, y, share.min(1.0));
+            }
+        }
+    }
+}
+
+/// The pixels of a straight line with round ends.
+fn segment(size: DVec2, from: DVec2, to: DVec2, width: f64, paint: impl FnMut(i64, i64, f64)) {
+    let half = 0.5 * width;
+    let along = to - from;
+    let scale = 1.0 / along.length_squared().max(f64::MIN_POSITIVE);
+    let distance = |at: DVec2| {
+        let share = ((at - from).dot(along) * scale).clamp(0.0, 1.0);
+        at.distance(from + share * along) - half
+    };
+    cover(size, from.min(to) - half, from.max(to) + half, distance, paint);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,6 +156,10 @@ mod tests {
         assert!((disc - std::f64::consts::PI * 100.0).abs() < 3.0, "{disc}");
         let line = area(&|c| c.line(DVec2::new(10.2, 12.0), DVec2::new(40.2, 52.0), 3.0, Rgb::BLACK, 1.0));
         assert!((line - 150.0 - std::f64::consts::PI * 2.25).abs() < 3.0, "{line}");
+        let ends = (DVec2::new(10.2, 12.0), DVec2::new(40.2, 52.0));
+        let many: Vec<DVec2> = (0..=2000).map(|k| ends.0.lerp(ends.1, f64::from(k) / 2000.0)).collect();
+        let curve = area(&|c| c.polyline(&many, 3.0, Rgb::BLACK));
+        assert!((curve - line).abs() < 1.0, "{curve}");
         for corners in [[(10.0, 10.0), (50.0, 12.0), (20.0, 40.0)], [(20.0, 40.0), (50.0, 12.0), (10.0, 10.0)]] {
             let corners = corners.map(|(x, y)| DVec2::new(x, y));
             let triangle = area(&|c| c.polygon(&corners, 0.0, Rgb::BLACK, 1.0));
