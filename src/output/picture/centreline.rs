@@ -88,11 +88,21 @@ fn wanted(case: &Case) -> Vec<(Component, Line)> {
     let mut lines: Vec<(Component, Line)> = Vec::new();
     let middle = [(Component::U, Line::X(0.5 * case.domain.width)), (Component::V, Line::Y(0.5 * case.domain.height))];
     for line in middle.into_iter().chain(case.expect.values().map(|row| (row.component, row.line))) {
-        if !lines.contains(&line) {
+        if !lines.iter().any(|&known| same(known, line)) {
             lines.push(line);
         }
     }
     lines
+}
+
+/// The same component along the same line, to rounding: `0.5 * width` need not be the number that a case gives.
+fn same(a: (Component, Line), b: (Component, Line)) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
+    a.0 == b.0
+        && match (a.1, b.1) {
+            (Line::X(a), Line::X(b)) | (Line::Y(a), Line::Y(b)) => near(a, b),
+            _ => false,
+        }
 }
 
 fn prepare(
@@ -106,7 +116,7 @@ fn prepare(
     let mut marks = Vec::new();
     let mut legend = vec![(Sign::Line, "computed".to_owned())];
     let mut colours = CIRCLES.into_iter().cycle();
-    for (name, row) in case.expect.iter().filter(|(_, row)| (row.component, row.line) == wanted) {
+    for (name, row) in case.expect.iter().filter(|(_, row)| same((row.component, row.line), wanted)) {
         let (sign, places, words) = match (measure.measured(row.measure), row.value, profiles.get(name)) {
             (Some(extreme), Some(value), _) => {
                 let (sign, word) = match row.measure {
@@ -126,14 +136,14 @@ fn prepare(
         legend.push((sign, words));
     }
 
-    let (component, unit) = match wanted.0 {
-        Component::U => ("u", "m/s"),
-        Component::V => ("v", "m/s"),
-        Component::P => ("p", "Pa"),
+    let (component, what, unit) = match wanted.0 {
+        Component::U => ("u", "u", "m/s"),
+        Component::V => ("v", "v", "m/s"),
+        Component::P => ("p", "p less its value in the middle,", "Pa"),
     };
     let (along, heading) = match wanted.1 {
-        Line::X(x) => ("y", format!("{component} along x = {} m", short(x, 4))),
-        Line::Y(y) => ("x", format!("{component} along y = {} m", short(y, 4))),
+        Line::X(x) => ("y", format!("{what} along x = {} m", short(x, 4))),
+        Line::Y(y) => ("x", format!("{what} along y = {} m", short(y, 4))),
     };
     let (low, high) = range(curve.iter().chain(marks.iter().flat_map(|(_, places)| places)).map(|place| place.y));
     let axes = (Axis::new(0.0, measure.length(), 5, along, "m"), Axis::new(low, high, 6, component, unit));
@@ -218,6 +228,13 @@ impl Sign {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_that_differ_by_rounding_share_a_panel() {
+        let u = |x: f64| (Component::U, Line::X(x));
+        assert!(same(u(0.1 + 0.2), u(0.3)) && !same(u(0.3), u(0.301)));
+        assert!(!same(u(0.3), (Component::V, Line::X(0.3))) && !same(u(0.3), (Component::U, Line::Y(0.3))));
+    }
 
     #[test]
     fn ranges_hold_every_value_and_are_never_empty() {

@@ -61,7 +61,7 @@ impl Palette {
 
     /// The colour at a share of the map, clamped to 0 to 1.
     pub fn at(&self, share: f64) -> Rgb {
-        self.0[(share.clamp(0.0, 1.0) * (self.0.len() - 1) as f64).round() as usize]
+        self.0[(share.clamp(0.0, 1.0) * (self.0.len() - 1) as f64 + 0.5) as usize]
     }
 }
 
