@@ -5,6 +5,8 @@ pub mod cli;
 pub mod cloud;
 pub mod cpu;
 pub mod engine;
+pub mod measure;
+pub mod output;
 pub mod simulation;
 pub mod snapshot;
 pub mod step;

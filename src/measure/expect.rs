@@ -1,0 +1,200 @@
+//! What a case expects, held against what was computed.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::{LineMeasure, MeasureError, Profile, Sampler};
+use crate::case::{Case, Component, Expectation, Line, Measure};
+use crate::snapshot::Snapshot;
+
+/// One row of `[expect]` with its measured value. `None` stands where the run gave no finite number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExpectationResult {
+    pub name: String,
+    /// In words: `minimum of u along x = 0.5`.
+    pub quantity: String,
+    /// Coordinate of the computed extreme along the line, m; a profile has none.
+    pub position: Option<f64>,
+    /// The computed extreme, or the rms difference from the profile; m/s or Pa.
+    pub value: Option<f64>,
+    /// The published extreme, or the published profile's largest magnitude; m/s or Pa.
+    pub reference: f64,
+    /// `|value - reference| / |reference|`, or the rms difference over the largest magnitude.
+    pub error: Option<f64>,
+    pub tolerance: f64,
+    pub pass: bool,
+    pub source: String,
+}
+
+/// Measures every expectation of a case, in the order of their names; `profiles` holds the published profiles by the
+/// name of their expectation.
+///
+/// # Errors
+/// A snapshot that can't be measured, an expectation without its value or profile, or a reference that is zero.
+pub fn evaluate(
+    case: &Case,
+    snapshot: &Snapshot,
+    profiles: &BTreeMap<String, Profile>,
+) -> Result<Vec<ExpectationResult>, MeasureError> {
+    if case.expect.is_empty() {
+        return Ok(Vec::new());
+    }
+    let sampler = Sampler::new(&snapshot.position, case.cloud.spacing)?;
+    // A point that is not a number fails every row, however far from the row's line.
+    let finite = snapshot.velocity.iter().all(|u| u.is_finite()) && snapshot.pressure.iter().all(|p| p.is_finite());
+    case.expect
+        .iter()
+        .map(|(name, row)| {
+            let line = LineMeasure::new(&sampler, snapshot, &case.domain, row.component, row.line)?;
+            let result = measured(name, row, &line, profiles.get(name))?;
+            let nothing =
+                |result| ExpectationResult { position: None, value: None, error: None, pass: false, ..result };
+            Ok(if finite { result } else { nothing(result) })
+        })
+        .collect()
+}
+
+fn measured(
+    name: &str,
+    row: &Expectation,
+    line: &LineMeasure,
+    profile: Option<&Profile>,
+) -> Result<ExpectationResult, MeasureError> {
+    let fail = |what: &str| MeasureError::Expectation { name: name.to_owned(), what: what.to_owned() };
+    let (position, value, reference, difference) = match line.measured(row.measure) {
+        Some(extreme) => {
+            let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+            (Some(extreme.position), extreme.value, reference, (extreme.value - reference).abs())
+        }
+        None => {
+            let profile = profile.ok_or_else(|| fail("`profile` was not read"))?;
+            let rms = rms_difference(line, profile);
+            let largest = profile.value.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+            (None, rms, largest, rms)
+        }
+    };
+    if reference == 0.0 {
+        return Err(fail("the published value is zero, so a relative error has no meaning"));
+    }
+    let finite = |x: f64| x.is_finite().then_some(x);
+    let error = finite(difference / reference.abs());
+    Ok(ExpectationResult {
+        name: name.to_owned(),
+        quantity: quantity(row),
+        position: position.and_then(finite),
+        value: finite(value),
+        reference,
+        error,
+        tolerance: row.tolerance,
+        pass: error.is_some_and(|error| error <= row.tolerance),
+        source: row.source.clone(),
+    })
+}
+
+fn rms_difference(line: &LineMeasure, profile: &Profile) -> f64 {
+    let squares = profile.coordinate.iter().zip(&profile.value).map(|(&s, &v)| (line.value(s) - v).powi(2));
+    (squares.sum::<f64>() / profile.value.len() as f64).sqrt()
+}
+
+fn quantity(row: &Expectation) -> String {
+    let measure = match row.measure {
+        Measure::Minimum => "minimum of",
+        Measure::Maximum => "maximum of",
+        Measure::Profile => "profile of",
+    };
+    let component = match row.component {
+        Component::U => "u",
+        Component::V => "v",
+        Component::P => "p",
+    };
+    match row.line {
+        Line::X(x) => format!("{measure} {component} along x = {x}"),
+        Line::Y(y) => format!("{measure} {component} along y = {y}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::sampler::tests::jittered_cloud;
+    use glam::DVec2;
+
+    fn expectation(measure: Measure, value: Option<f64>) -> Expectation {
+        Expectation {
+            component: Component::U,
+            line: Line::X(0.5),
+            measure,
+            value,
+            profile: None,
+            column: None,
+            tolerance: 0.01,
+            source: "a paper".into(),
+        }
+    }
+
+    fn case(rows: &[(&str, Expectation)]) -> Case {
+        let mut case: Case = toml::from_str(
+            "title = 't'\n[domain]\nwidth = 1.0\nheight = 1.0\n[cloud]\narrangement = 'regular'\nspacing = 0.05\n\
+             [fluid]\ndensity = 1.0\n[time]\nend = 1.0\n",
+        )
+        .unwrap();
+        case.expect = rows.iter().map(|(name, row)| (name.to_string(), row.clone())).collect();
+        case
+    }
+
+    fn flow() -> Snapshot {
+        let position = jittered_cloud(20, 0.3, 2);
+        let velocity = position.iter().map(|x| DVec2::new(4.0 * x.y * (1.0 - x.y), 0.0)).collect();
+        Snapshot { time: 1.0, pressure: vec![0.0; position.len()], position, velocity }
+    }
+
+    #[test]
+    fn passes_within_the_tolerance_and_fails_beyond_it() {
+        let close = expectation(Measure::Maximum, Some(1.005));
+        let far = expectation(Measure::Maximum, Some(1.02));
+        let rows = evaluate(&case(&[("close", close), ("far", far)]), &flow(), &BTreeMap::new()).unwrap();
+        assert_eq!(rows.iter().map(|r| r.pass).collect::<Vec<_>>(), [true, false]);
+        assert!((rows[0].value.unwrap() - 1.0).abs() < 1e-9 && (rows[0].position.unwrap() - 0.5).abs() < 1e-9);
+        assert!((rows[1].error.unwrap() - 0.02 / 1.02).abs() < 1e-9);
+        assert_eq!(rows[0].quantity, "maximum of u along x = 0.5");
+    }
+
+    #[test]
+    fn a_profile_is_compared_by_its_rms() {
+        let shifted = |by: f64| {
+            let coordinate = vec![0.1, 0.5, 0.8];
+            let value = coordinate.iter().map(|y| 4.0 * y * (1.0 - y) + by).collect();
+            BTreeMap::from([("p".to_owned(), Profile { coordinate, value })])
+        };
+        let case = case(&[("p", expectation(Measure::Profile, None))]);
+        let near = &evaluate(&case, &flow(), &shifted(0.005)).unwrap()[0];
+        assert!(near.pass && (near.value.unwrap() - 0.005).abs() < 1e-9 && near.position.is_none());
+        assert!((near.reference - 1.005).abs() < 1e-12);
+        assert!(!evaluate(&case, &flow(), &shifted(0.02)).unwrap()[0].pass);
+    }
+
+    #[test]
+    fn not_a_number_never_passes() {
+        let mut snapshot = flow();
+        snapshot.velocity[230].x = f64::NAN;
+        let mut row = expectation(Measure::Maximum, Some(1.0));
+        row.tolerance = f64::INFINITY;
+        let result = &evaluate(&case(&[("u", row.clone())]), &snapshot, &BTreeMap::new()).unwrap()[0];
+        assert_eq!((result.pass, result.value, result.error), (false, None, None));
+        row.tolerance = f64::NAN;
+        assert!(!evaluate(&case(&[("u", row)]), &flow(), &BTreeMap::new()).unwrap()[0].pass);
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_an_error() {
+        for (row, what) in [
+            (expectation(Measure::Minimum, None), "`value`"),
+            (expectation(Measure::Minimum, Some(0.0)), "zero"),
+            (expectation(Measure::Profile, None), "`profile`"),
+        ] {
+            let error = evaluate(&case(&[("row", row)]), &flow(), &BTreeMap::new()).unwrap_err().to_string();
+            assert!(error.contains("expect.row") && error.contains(what), "{error}");
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Measuring a scattered field: its value anywhere, its course and extremes along a line, and what a case expects of it.
+
+mod cells;
+mod error;
+mod expect;
+mod fit;
+mod line;
+mod profile;
+mod sampler;
+
+pub use cells::CellList;
+pub use error::MeasureError;
+pub use expect::{ExpectationResult, evaluate};
+pub use fit::{Degree, Fit};
+pub use line::{Extreme, LineMeasure};
+pub use profile::Profile;
+pub use sampler::{Sampler, Stencil};
+
+#[cfg(test)]
+pub(crate) use sampler::tests;

@@ -1,0 +1,90 @@
+//! Files that are there whole or not at all, and the check that numbers are finite.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use super::OutputError;
+use crate::snapshot::Snapshot;
+
+/// Writes a file under a temporary name beside it and renames it once it is whole.
+///
+/// # Errors
+/// Whatever `write` returns, and every error of the file system; the temporary file is removed then.
+pub(super) fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
+) -> Result<(), OutputError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let temporary = path.with_file_name(name);
+    let written = (|| {
+        let mut file = BufWriter::new(File::create(&temporary).map_err(OutputError::io(&temporary))?);
+        write(&mut file)?;
+        file.flush().map_err(OutputError::io(path))?;
+        fs::rename(&temporary, path).map_err(OutputError::io(path))
+    })();
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// Every field has a value for each point, and every value is a finite number.
+pub(super) fn check(snapshot: &Snapshot) -> Result<(), OutputError> {
+    let points = snapshot.position.len();
+    for (field, found) in [("velocity", snapshot.velocity.len()), ("pressure", snapshot.pressure.len())] {
+        if found != points {
+            return Err(OutputError::Length { field, found, points });
+        }
+    }
+    finite("time", snapshot.time)?;
+    for point in 0..points {
+        let (x, u) = (snapshot.position[point], snapshot.velocity[point]);
+        for (field, value) in [("x", x.x), ("y", x.y), ("u", u.x), ("v", u.y), ("p", snapshot.pressure[point])] {
+            if !value.is_finite() {
+                return Err(OutputError::PointNotFinite { field, point, value });
+            }
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn finite(field: &str, value: f64) -> Result<(), OutputError> {
+    if value.is_finite() { Ok(()) } else { Err(OutputError::NotFinite { field: field.to_owned(), value }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_whole(&path, |file| file.write_all(b"old").map_err(OutputError::io(&path))).unwrap();
+        let error = write_whole(&path, |file| {
+            file.write_all(b"half of the new").map_err(OutputError::io(&path))?;
+            finite("time", f64::NAN)
+        });
+        assert_eq!(error.unwrap_err().to_string(), "time is NaN: nothing is written that is not a finite number");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn an_infinity_is_named_with_its_field_and_point() {
+        let mut snapshot = Snapshot {
+            time: 0.0,
+            position: vec![glam::DVec2::ZERO; 3],
+            velocity: vec![glam::DVec2::ZERO; 3],
+            pressure: vec![0.0; 3],
+        };
+        check(&snapshot).unwrap();
+        snapshot.velocity[2].y = f64::INFINITY;
+        assert!(check(&snapshot).unwrap_err().to_string().starts_with("v of point 2 is inf"));
+        snapshot.velocity.pop();
+        assert!(matches!(check(&snapshot), Err(OutputError::Length { field: "velocity", found: 2, points: 3 })));
+    }
+}

@@ -1,0 +1,15 @@
+//! A run's folder: what each file in it is called, how it is written and how it is read back.
+
+mod diagnostics;
+mod error;
+mod file;
+mod folder;
+pub mod picture;
+pub mod points;
+mod summary;
+pub mod vtu;
+
+pub use diagnostics::DiagnosticsWriter;
+pub use error::OutputError;
+pub use folder::RunFolder;
+pub use summary::{Adapter, Fallbacks, Seconds, StopReason, Summary};

@@ -1,0 +1,118 @@
+//! points.csv: every point of a snapshot, one a line, `x,y,u,v,p` in m, m/s and Pa, each number in the shortest form
+//! that reads back to the same bits.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+
+use glam::DVec2;
+
+use super::OutputError;
+use super::file::{check, write_whole};
+use crate::snapshot::Snapshot;
+
+const HEADER: &str = "x,y,u,v,p";
+
+/// Writes all points.
+///
+/// # Errors
+/// A value that is not finite, a field of the wrong length, errors of the file system.
+pub fn write(path: &Path, snapshot: &Snapshot) -> Result<(), OutputError> {
+    check(snapshot)?;
+    write_whole(path, |file| {
+        let mut rows = snapshot.position.iter().zip(&snapshot.velocity).zip(&snapshot.pressure);
+        writeln!(file, "{HEADER}")
+            .and_then(|()| {
+                rows.try_for_each(|((x, u), p)| writeln!(file, "{:?},{:?},{:?},{:?},{p:?}", x.x, x.y, u.x, u.y))
+            })
+            .map_err(OutputError::io(path))
+    })
+}
+
+/// Reads what [`write`] wrote; the file does not hold the time, s.
+///
+/// # Errors
+/// Another header, a row without five finite numbers, errors of the file system.
+pub fn read(path: &Path, time: f64) -> Result<Snapshot, OutputError> {
+    let fail = |line: usize, what: String| OutputError::Csv { path: path.to_owned(), line, what };
+    let mut lines = BufReader::new(File::open(path).map_err(OutputError::io(path))?).lines();
+    let header = lines.next().transpose().map_err(OutputError::io(path))?.unwrap_or_default();
+    if header.trim_end() != HEADER {
+        return Err(fail(1, format!("the header is `{header}`, and must be `{HEADER}`")));
+    }
+    let mut snapshot = Snapshot { time, ..Snapshot::default() };
+    for (index, row) in lines.enumerate() {
+        let row = row.map_err(OutputError::io(path))?;
+        let [x, y, u, v, p] = numbers(&row).map_err(|what| fail(index + 2, what))?;
+        snapshot.position.push(DVec2::new(x, y));
+        snapshot.velocity.push(DVec2::new(u, v));
+        snapshot.pressure.push(p);
+    }
+    Ok(snapshot)
+}
+
+fn numbers(row: &str) -> Result<[f64; 5], String> {
+    let mut numbers = [0.0f64; 5];
+    let mut cells = row.trim_end().split(',');
+    for (number, name) in numbers.iter_mut().zip(HEADER.split(',')) {
+        let cell = cells.next().ok_or_else(|| format!("{name} is missing"))?;
+        *number = cell.parse().map_err(|_| format!("{name} is `{cell}`, which is not a number"))?;
+        if !number.is_finite() {
+            return Err(format!("{name} is `{cell}`, which is not finite"));
+        }
+    }
+    match cells.next() {
+        None => Ok(numbers),
+        Some(cell) => Err(format!("`{cell}` follows the five columns")),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(crate) fn awkward() -> Snapshot {
+        let numbers = [0.1 + 0.2, -0.0, 1e-310, 1.0 / 3.0, -f64::MAX, f64::MIN_POSITIVE, f64::from(0.3f32), 1e22];
+        let pair = |k: usize| DVec2::new(numbers[k % 8], numbers[(k + 3) % 8]);
+        Snapshot {
+            time: 2.5,
+            position: (0..20).map(pair).collect(),
+            velocity: (3..23).map(pair).collect(),
+            pressure: (5..25).map(|k| numbers[k % 8]).collect(),
+        }
+    }
+
+    #[test]
+    fn reads_back_the_same_bits() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("points.csv");
+        write(&path, &awkward()).unwrap();
+        let back = read(&path, 2.5).unwrap();
+        assert_eq!(back, awkward());
+        assert!(back.position[1].x.is_sign_negative(), "-0.0 keeps its sign");
+        assert!(std::fs::read_to_string(&path).unwrap().starts_with("x,y,u,v,p\n0.30000000000000004,"));
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_neither_written_nor_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("points.csv");
+        let mut snapshot = awkward();
+        snapshot.pressure[7] = f64::NAN;
+        let error = write(&path, &snapshot).unwrap_err().to_string();
+        assert!(error.starts_with("p of point 7 is NaN") && !path.exists(), "{error}");
+
+        for (row, what) in [
+            ("1,2,3,4,NaN", "p is `NaN`, which is not finite"),
+            ("1,2,x,4,5", "u is `x`, which is not a number"),
+            ("1,2,3", "v is missing"),
+            ("1,2,3,4,5,6", "`6` follows the five columns"),
+        ] {
+            std::fs::write(&path, format!("x,y,u,v,p\n0,0,0,0,0\n{row}\n")).unwrap();
+            let error = read(&path, 0.0).unwrap_err().to_string();
+            assert!(error.ends_with(&format!("points.csv, line 3: {what}")), "{error}");
+        }
+        std::fs::write(&path, "x,y,p\n").unwrap();
+        assert!(read(&path, 0.0).unwrap_err().to_string().contains("line 1: the header is `x,y,p`"));
+    }
+}
