@@ -1,6 +1,17 @@
 //! One run: steps until the end, a steady state, a request to stop, or trouble.
 
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
+
+use crate::case::Splitting;
+use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
+use crate::scene::Scene;
+use crate::snapshot::Snapshot;
+use crate::step::{Buffer, Operation, Points, Rung};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -28,6 +39,283 @@ pub struct Diagnostics {
 pub trait Observer {
     /// A row of diagnostics is ready.
     fn report(&mut self, row: &Diagnostics);
-    /// True once the run is to stop after the step it is in.
+    /// True once the run is to stop after the steps it is in.
     fn stop_requested(&self) -> bool;
+}
+
+/// Watches nothing.
+impl Observer for () {
+    fn report(&mut self, _: &Diagnostics) {}
+
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stop {
+    /// No velocity changed faster than `time.steady`.
+    Steady,
+    /// `time.end` was reached.
+    End,
+    /// The observer asked.
+    Interrupted,
+    /// A field turned non-finite in the steps that ended with this one.
+    NonFinite { field: NonFinite, place: DVec2, step: u64 },
+}
+
+/// What a run gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    pub stop: Stop,
+    pub steps: u64,
+    /// The fields at the end; after trouble, at the last row of diagnostics before it.
+    pub snapshot: Snapshot,
+    /// Solves that were handed to the direct solver.
+    pub fallbacks: u64,
+    /// Pressure iterations of all steps.
+    pub iterations: u64,
+    /// Points whose fit was widened, is linear, is the nearest value.
+    pub ladder: [u64; 3],
+    /// Wall-clock time of the setup operations, and of the steps with their reports.
+    pub setup: Duration,
+    pub stepping: Duration,
+    pub warnings: Vec<String>,
+}
+
+/// Why a run could not be made or go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(
+        "time.step = {step}: at {speed} m/s points move {courant:.2} spacings a step; \
+         allowed with the forward remap: at most 1"
+    )]
+    TooFastForForward { step: f64, speed: f64, courant: f64 },
+}
+
+/// Longest stretch of steps between two looks at the observer.
+const STRETCH: Duration = Duration::from_millis(250);
+/// Share of the viscous stability limit that a step uses.
+const VISCOUS_SAFETY: f64 = 0.8;
+/// Applications of the viscous operator in the search for its largest eigenvalue.
+const POWER_ITERATIONS: usize = 24;
+/// A forward remap fits points where they were moved; farther than this its modes grow (spacings).
+const FORWARD_LIMIT: f64 = 1.0;
+
+/// Runs `scene` on `engine`, whose arrays hold what [`Scene::initial`] says.
+pub fn simulate(
+    scene: &Scene,
+    engine: &mut dyn Engine,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SimulationError> {
+    Run { scene, engine, observer, limit: f64::INFINITY, warnings: Vec::new() }.run()
+}
+
+struct Run<'a> {
+    scene: &'a Scene,
+    engine: &'a mut dyn Engine,
+    observer: &'a mut dyn Observer,
+    /// Largest stable step of the viscous term, s.
+    limit: f64,
+    warnings: Vec<String>,
+}
+
+impl Run<'_> {
+    fn run(mut self) -> Result<Outcome, SimulationError> {
+        let started = Instant::now();
+        let any = self.scene.clock(1.0);
+        for &operation in &self.scene.plan.setup {
+            self.engine.apply(operation, &any)?;
+        }
+        self.limit = self.viscous_limit()?;
+        let ladder = self.ladder()?;
+        let setup = started.elapsed();
+
+        let started = Instant::now();
+        let time = &self.scene.case.time;
+        let walls = self.scene.cloud.wall_velocity(&self.scene.case.boundaries);
+        let wall_speed = walls.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+        let mut dt = self.step(wall_speed, 0.0)?;
+        self.first_kick(dt)?;
+        let mut good = self.snapshot(0.0)?;
+        let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
+        let (mut fallbacks, mut iterations) = (0, 0);
+        let stop = loop {
+            if now >= time.end * (1.0 - 1e-12) {
+                break Stop::End;
+            }
+            let asked = self.scene.case.output.report_every;
+            let left = ((time.end - now) / dt).ceil().max(1.0);
+            let (row_start, mut done) = (now, 0_u32);
+            let mut trouble = None;
+            let count = (f64::from(asked)).min(left) as u32;
+            let interrupted = loop {
+                let clock = self.scene.clock(dt);
+                let began = Instant::now();
+                let some = stretch(count - done, done, began - started, step);
+                let advance = self.engine.advance(some, &clock)?;
+                done += advance.steps;
+                step += u64::from(advance.steps);
+                now += f64::from(advance.steps) * dt;
+                iterations += advance.iterations;
+                fallbacks += u64::from(advance.fallbacks);
+                if let Some(field) = advance.trouble {
+                    trouble = Some(field);
+                    break false;
+                }
+                if done >= count {
+                    break false;
+                }
+                if self.observer.stop_requested() {
+                    break true;
+                }
+            };
+            if let Some(field) = trouble {
+                let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
+                break Stop::NonFinite { field, place, step };
+            }
+            let measured = self.engine.measure(now - row_start)?;
+            let solve = self.engine.solve_info();
+            let row = Diagnostics {
+                step,
+                time: now,
+                dt,
+                kinetic_energy: measured.kinetic_energy,
+                max_speed: measured.max_speed,
+                divergence: measured.divergence,
+                pressure_iterations: solve.iterations,
+                residual: solve.last_residual * dt * self.scene.clock(dt).kick / self.scene.constants.density,
+                change: measured.change,
+            };
+            self.observer.report(&row);
+            good = self.snapshot(now)?;
+            if interrupted || self.observer.stop_requested() {
+                break Stop::Interrupted;
+            }
+            steady_rows = if time.steady.is_some_and(|least| row.change < least) { steady_rows + 1 } else { 0 };
+            if steady_rows == STEADY_ROWS {
+                break Stop::Steady;
+            }
+            dt = self.step(wall_speed.max(row.max_speed), now)?;
+        };
+        let stepping = started.elapsed();
+        let warnings = self.warnings;
+        Ok(Outcome { stop, steps: step, snapshot: good, fallbacks, iterations, ladder, setup, stepping, warnings })
+    }
+
+    /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.
+    fn step(&mut self, speed: f64, now: f64) -> Result<f64, SimulationError> {
+        let time = &self.scene.case.time;
+        let spacing = self.scene.constants.spacing;
+        let forward = self.scene.plan.drift.contains(&Operation::RemapForward);
+        let longest = time.step.unwrap_or_else(|| {
+            let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
+            let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
+            by_motion.min(self.limit)
+        });
+        let left = time.end - now;
+        if left <= 0.0 {
+            return Ok(longest);
+        }
+        let dt = left / (left / longest).ceil().max(1.0);
+        let courant = dt * speed / spacing;
+        if forward && courant > FORWARD_LIMIT * (1.0 + 1e-9) {
+            return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
+        }
+        if dt > self.limit && self.warnings.is_empty() {
+            let limit = self.limit;
+            self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
+        }
+        Ok(dt)
+    }
+
+    /// The first half kick alone: after it, drift and whole kick follow each other. In a projection step, the first step's forces.
+    fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
+        for &operation in &self.scene.plan.kick {
+            self.engine.apply(operation, &clock)?;
+        }
+        Ok(())
+    }
+
+    /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
+    /// scattered points no formula knows it. Reflection extrapolates the viscous term and halves the limit.
+    fn viscous_limit(&mut self) -> Result<f64, EngineError> {
+        if self.scene.case.effects.viscosity.is_none() {
+            return Ok(f64::INFINITY);
+        }
+        let field = self.scene.plan.diffused();
+        let interior = self.scene.sizes.interior;
+        let kept = self.engine.read(field)?;
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(1);
+        let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        let mut trial = vec![DVec2::ZERO; interior];
+        trial.iter_mut().for_each(|value| *value = DVec2::new(unit(), unit()));
+        let mut radius = 0.0;
+        let clock = Clock { dt: 1.0, kick: 1.0, second_kick: 1.0 };
+        for _ in 0..POWER_ITERATIONS {
+            let norm = trial.iter().map(|value| value.length_squared()).sum::<f64>().sqrt();
+            trial.iter_mut().for_each(|value| *value /= norm);
+            self.engine.write(field, &self.scene.vectors(&trial, DVec2::ZERO))?;
+            self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
+            self.engine.apply(Operation::Viscosity, &clock)?;
+            let Data::Real(result) = self.engine.read(Buffer::Kick)? else { break };
+            trial = result[..2 * interior].chunks_exact(2).map(DVec2::from_slice).collect();
+            radius = trial.iter().map(|value| value.length_squared()).sum::<f64>().sqrt();
+        }
+        self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
+        self.engine.write(field, &kept)?;
+        let stable = match self.scene.plan.splitting {
+            Splitting::Reflection => 1.0,
+            Splitting::Projection => 2.0,
+        };
+        Ok(VISCOUS_SAFETY * stable / radius)
+    }
+
+    fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
+        let mut tally = [0; 3];
+        if let Data::Index(rungs) = self.engine.read(Buffer::Rung(Points::Standing))? {
+            for &rung in rungs[..self.scene.sizes.points].iter().filter(|&&rung| rung > 0) {
+                tally[match rung {
+                    Rung::LINEAR => 1,
+                    Rung::NEAREST => 2,
+                    _ => 0,
+                }] += 1;
+            }
+        }
+        Ok(tally)
+    }
+
+    /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
+    fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
+        let points = self.scene.sizes.points;
+        let mut velocity = Vec::new();
+        if let Data::Real(values) = self.engine.read(Buffer::Projected)? {
+            velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
+        }
+        let mut pressure = vec![0.0; points];
+        if self.scene.plan.form.is_some()
+            && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
+        {
+            let mean = values[..points].iter().sum::<f64>() / points as f64;
+            pressure = values[..points].iter().map(|p| p - mean).collect();
+        }
+        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure })
+    }
+}
+
+/// Rows in a row that must be steady.
+const STEADY_ROWS: u32 = 2;
+
+/// Steps to take before the observer is asked again: as many as fit into [`STRETCH`] at the pace so far.
+fn stretch(left: u32, done: u32, elapsed: Duration, steps: u64) -> u32 {
+    if steps == 0 {
+        return if done == 0 { 1.min(left) } else { left };
+    }
+    let pace = elapsed.as_secs_f64() / steps as f64;
+    let fit = (STRETCH.as_secs_f64() / pace.max(1e-9)).min(f64::from(u32::MAX));
+    (fit as u32).clamp(1, left.max(1))
 }

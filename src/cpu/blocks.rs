@@ -1,5 +1,7 @@
 //! Loops over blocks of points, on one core or on all, with the same bits either way.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 pub use crate::step::BLOCK;
@@ -59,8 +61,27 @@ pub fn for_each_2<R: Send, S: Send>(
     }
 }
 
-/// Runs `body(first point, values)` over chunks of one to three per-point arrays and adds up what it returns. The chunks are the same
-/// on any number of threads, and their sums are added in order: same bits.
+/// The same for three arrays at once.
+pub fn for_each_3<R: Send, S: Send, Q: Send>(
+    (first, slots): (&mut [R], usize),
+    (second, others): (&mut [S], usize),
+    (third, more): (&mut [Q], usize),
+    body: impl Fn(usize, &mut [R], &mut [S], &mut [Q]) + Sync + Send,
+) {
+    let serial = first.len() < SERIAL_BELOW * slots;
+    if serial {
+        let pairs = first.chunks_mut(slots * BLOCK).zip(second.chunks_mut(others * BLOCK));
+        let triples = pairs.zip(third.chunks_mut(more * BLOCK));
+        triples.enumerate().for_each(|(block, ((a, b), c))| body(block, a, b, c));
+    } else {
+        let pairs = first.par_chunks_mut(slots * BLOCK).zip(second.par_chunks_mut(others * BLOCK));
+        let triples = pairs.zip(third.par_chunks_mut(more * BLOCK)).with_min_len(BLOCKS_A_TASK);
+        triples.enumerate().for_each(|(block, ((a, b), c))| body(block, a, b, c));
+    }
+}
+
+/// Runs `body(first point, values)` over chunks of per-point arrays and adds up what it returns. The chunks are the
+/// same on any number of threads, and their sums are added in order: same bits.
 pub fn sum_over<R: Send, const N: usize, const M: usize>(
     arrays: [&mut [R]; N],
     body: impl Fn(usize, [&mut [R]; N]) -> [f64; M] + Sync + Send,
@@ -83,6 +104,18 @@ pub fn sum_over<R: Send, const N: usize, const M: usize>(
         tasks.into_iter().map(|(start, chunk)| body(start, chunk)).collect()
     } else {
         tasks.into_par_iter().map(|(start, chunk)| body(start, chunk)).collect()
+    };
+    partial.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
+}
+
+/// Adds up what `body` returns for consecutive ranges of `0..length`; the same ranges and order on any number of threads.
+pub fn sum_ranges<const M: usize>(length: usize, body: impl Fn(Range<usize>) -> [f64; M] + Sync + Send) -> [f64; M] {
+    let range = |task: usize| task * CHUNK..((task + 1) * CHUNK).min(length);
+    let tasks = length.div_ceil(CHUNK);
+    let partial: Vec<[f64; M]> = if length < SERIAL_BELOW {
+        (0..tasks).map(|task| body(range(task))).collect()
+    } else {
+        (0..tasks).into_par_iter().map(|task| body(range(task))).collect()
     };
     partial.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
 }

@@ -27,6 +27,8 @@ pub trait Real:
 {
     type Pack: Pack<Self>;
     const EPSILON: Self;
+    /// `f32` or `f64`.
+    const NAME: &'static str;
     fn from_f64(value: f64) -> Self;
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
@@ -113,6 +115,7 @@ macro_rules! real {
         impl Real for $real {
             type Pack = $pack;
             const EPSILON: Self = <$real>::EPSILON;
+            const NAME: &'static str = stringify!($real);
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {

@@ -75,6 +75,7 @@ pub enum Buffer {
     Shadow,
     Stabilised,
     StabilisedProduct,
+    Preconditioned,
     /// `Projected` at the last report, m/s, to measure the rate of change from; interleaved.
     Reported,
 }
@@ -122,6 +123,7 @@ impl Buffer {
             Buffer::Shadow => ("shadow", None),
             Buffer::Stabilised => ("stabilised", None),
             Buffer::StabilisedProduct => ("stabilised_product", None),
+            Buffer::Preconditioned => ("preconditioned", None),
             Buffer::Reported => ("reported", None),
         };
         match points {

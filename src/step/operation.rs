@@ -154,7 +154,7 @@ impl Operation {
             Operation::Divergence | Operation::CollocatedSource => vec![Source],
             Operation::ConjugateGradient => vec![Pressure, Residual, Direction, Product],
             Operation::Bicgstab => {
-                vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct]
+                vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]
             }
             Operation::DirectSolve => vec![Pressure],
             Operation::Reflect => vec![Kick, PressureKick, Reflected],

@@ -6,6 +6,7 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::derivative::packs;
+use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
 
 /// Faces of the Voronoi cells: neighbour across and weight `w_ij`, `capacity` slots a point, blocked.
@@ -28,28 +29,34 @@ impl<T: Real> Faces<'_, T> {
             body(&self.neighbours[start..start + T::Pack::LANES], T::Pack::load(&self.weight[start..]));
         }
     }
+}
 
-    /// `(K p)_i = sum_j w_ij (p_i - p_j)` for the points `i..i + LANES`.
+/// The symmetric matrix `K` over the cells' volumes.
+#[derive(Clone, Copy)]
+pub struct Conservative<'a, T> {
+    pub faces: Faces<'a, T>,
+    pub volume: &'a [T],
+}
+
+impl<T: Real> Rows<T> for Conservative<'_, T> {
+    /// `(K p)_i = sum_j w_ij (p_i - p_j)`.
     #[inline(always)]
-    pub fn product(&self, i: usize, p: &[T]) -> T::Pack {
+    fn product(&self, i: usize, p: &[T]) -> T::Pack {
         let own = T::Pack::load(&p[i..]);
         let mut sum = T::Pack::zero();
-        self.for_each(i, |index, weight| {
+        self.faces.for_each(i, |index, weight| {
             // SAFETY: every stored face neighbour is below the number of points.
             sum += weight * (own - unsafe { T::Pack::gather(p, index) });
         });
         sum
     }
 
-    /// `sum_j w_ij`.
-    pub fn diagonal(&self, diagonal: &mut [T]) {
-        blocks::for_each(diagonal, 1, |block, out| {
-            for first in (0..BLOCK).step_by(T::Pack::LANES) {
-                let mut sum = T::Pack::zero();
-                self.for_each(block * BLOCK + first, |_, weight| sum += weight);
-                sum.store(&mut out[first..]);
-            }
-        });
+    #[inline(always)]
+    fn measure(&self, i: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
+        let per_volume = T::Pack::splat(T::from_f64(1.0)) / T::Pack::load(&self.volume[i..]);
+        let (residual, size) = (residual * per_volume, size * per_volume);
+        sums[0] += residual * residual;
+        sums[1] += size * size;
     }
 }
 

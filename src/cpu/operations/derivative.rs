@@ -19,12 +19,12 @@ pub struct Fits<'a, T, W> {
 
 impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
     #[inline(always)]
-    fn stencil(&self, i: usize) -> Stencil<'_, T> {
+    pub fn stencil(&self, i: usize) -> Stencil<'_, T> {
         Stencil::new(self.position, self.support, self.neighbours, self.count, self.capacity, i)
     }
 
     #[inline(always)]
-    fn factor(&self, i: usize) -> [T::Pack; FACTOR] {
+    pub fn factor(&self, i: usize) -> [T::Pack; FACTOR] {
         std::array::from_fn(|k| T::Pack::load(&self.factor[blocks::at(i, k, FACTOR)..]))
     }
 
@@ -47,7 +47,7 @@ impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
 
     /// The same for both components of a velocity.
     #[inline(always)]
-    fn vector(&self, i: usize, field: &[T]) -> ([[T::Pack; COEFFICIENTS]; 2], T::Pack) {
+    pub fn vector(&self, i: usize, field: &[T]) -> ([[T::Pack; COEFFICIENTS]; 2], T::Pack) {
         let own = T::Pack::load_vectors(&field[2 * i..]);
         let mut right = [[T::Pack::zero(); COEFFICIENTS]; 2];
         let stencil = self.stencil(i);
@@ -129,18 +129,17 @@ pub fn fit_velocity<T: Real, W: WeightFunction>(fits: Fits<T, W>, velocity: &[T]
     });
 }
 
-/// Divergence of the fitted velocity, 1/s: `du/dx + dv/dy`, at the points below `end`, times `scale`.
+/// Divergence of the fitted velocity, 1/s: `du/dx + dv/dy`, at the points below `end`; (2.6).
 pub fn fitted_divergence<T: Real, W: WeightFunction>(
     fits: Fits<T, W>,
     velocity: &[T],
-    scale: T,
     end: usize,
     divergence: &mut [T],
 ) {
     blocks::for_each(divergence, 1, |block, out| {
         for i in packs::<T>(block, end) {
             let ([u, v], per) = fits.vector(i, velocity);
-            let value = T::Pack::splat(scale) * per * (u[0] + v[1]);
+            let value = per * (u[0] + v[1]);
             for lane in 0..T::Pack::LANES.min(end - i) {
                 out[i - block * BLOCK + lane] = value.lane(lane);
             }

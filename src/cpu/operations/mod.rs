@@ -1,9 +1,14 @@
 //! The operations, one name each, on slices of `f32` or `f64`.
 
+pub mod bicgstab;
+pub mod collocated;
 pub mod conjugate_gradient;
 pub mod conservative;
 pub mod derivative;
 pub mod fit;
+pub mod kick;
+pub mod measure;
 pub mod moments;
 pub mod neighbours;
+pub mod pressure;
 pub mod remap;

@@ -7,8 +7,8 @@ use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::moments::COEFFICIENTS;
 use crate::cpu::real::Real;
 
-/// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity taken half a
-/// step back along the path; the fit of the point nearest to that place is evaluated there.
+/// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity being that
+/// at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
 pub fn remap_departure<T: Real>(
     position: &[T],
     support: &[T],
@@ -16,38 +16,49 @@ pub fn remap_departure<T: Real>(
     count: &[u32],
     capacity: usize,
     size: [T; 2],
-    intermediate: &[T],
+    values: &[T],
     coefficients: &[T],
     dt: T,
     end: usize,
     velocity: &mut [T],
 ) {
-    let evaluate = |j: usize, [x, y]: [T; 2]| -> [T; 2] {
-        let per = T::from_f64(1.0) / support[j];
-        let (x, y) = ((x - position[2 * j]) * per, (y - position[2 * j + 1]) * per);
-        let basis = [x, y, x * x, x * y, y * y];
-        let first = blocks::at(j, 0, 2 * COEFFICIENTS);
-        let part = |c: usize| {
-            let mut sum = intermediate[2 * j + c];
-            for (k, term) in basis.into_iter().enumerate() {
-                sum += coefficients[first + (c * COEFFICIENTS + k) * BLOCK] * term;
-            }
-            sum
-        };
-        [part(0), part(1)]
-    };
+    let evaluate = |j, place| evaluate(position, support, values, coefficients, j, place);
     blocks::for_each(velocity, 2, |block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
             let inside = |x: T, length: T| x.max(T::zero()).min(length);
             let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
-            let own = [intermediate[2 * i], intermediate[2 * i + 1]];
+            let own = [values[2 * i], values[2 * i + 1]];
             let from = back(evaluate(i, back(own)));
             let value = evaluate(nearest(position, neighbours, count, capacity, from, i), from);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }
     });
+}
+
+/// The fit of point `j` at `place`: its value and its five coefficients.
+#[inline(always)]
+fn evaluate<T: Real>(
+    position: &[T],
+    support: &[T],
+    values: &[T],
+    coefficients: &[T],
+    j: usize,
+    place: [T; 2],
+) -> [T; 2] {
+    let per = T::from_f64(1.0) / support[j];
+    let (x, y) = ((place[0] - position[2 * j]) * per, (place[1] - position[2 * j + 1]) * per);
+    let basis = [x, y, x * x, x * y, y * y];
+    let first = blocks::at(j, 0, 2 * COEFFICIENTS);
+    let part = |c: usize| {
+        let mut sum = values[2 * j + c];
+        for (k, term) in basis.into_iter().enumerate() {
+            sum += coefficients[first + (c * COEFFICIENTS + k) * BLOCK] * term;
+        }
+        sum
+    };
+    [part(0), part(1)]
 }
 
 /// The point nearest to `place`, found by walking from point to nearer neighbour, beginning at `from`.
@@ -80,4 +91,35 @@ fn nearest<T: Real>(
         }
         at = next;
     }
+}
+
+/// Moves the interior points with the flow: `r' = r0 + dt u'`; walls stand.
+pub fn move_points<T: Real>(standing: &[T], velocity: &[T], dt: T, interior: usize, moved: &mut [T]) {
+    blocks::for_each(moved, 2, |block, out| {
+        let first = 2 * block * BLOCK;
+        for (k, place) in out.iter_mut().enumerate() {
+            let shift = if first + k < 2 * interior { dt * velocity[first + k] } else { T::zero() };
+            *place = standing[first + k] + shift;
+        }
+    });
+}
+
+/// The paper's remap: the fit of each moved point, evaluated at its standing place `r0`, that is at `r0 - r'`.
+pub fn remap_forward<T: Real>(
+    standing: &[T],
+    moved: &[T],
+    support: &[T],
+    values: &[T],
+    coefficients: &[T],
+    interior: usize,
+    velocity: &mut [T],
+) {
+    blocks::for_each(velocity, 2, |block, out| {
+        for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
+            let place = [standing[2 * i], standing[2 * i + 1]];
+            let value = evaluate(moved, support, values, coefficients, i, place);
+            let lane = 2 * (i - block * BLOCK);
+            out[lane..lane + 2].copy_from_slice(&value);
+        }
+    });
 }

@@ -1,0 +1,541 @@
+//! The CPU engine: the plan's operations on arrays in memory, on all cores.
+
+use std::sync::Arc;
+
+use crate::cpu::fields::Fields;
+use crate::cpu::operations::conservative::{self, Conservative, Faces};
+use crate::cpu::operations::derivative::{self, Fits};
+use crate::cpu::operations::moments::WeightFunction;
+use crate::cpu::operations::neighbours::CellList;
+use crate::cpu::operations::pressure::Stop;
+use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
+use crate::cpu::real::Real;
+use crate::direct::DirectSolver;
+use crate::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo};
+use crate::scene::Scene;
+use crate::step::{Buffer, Operation, Points};
+use crate::with_weight;
+
+/// Steps between two looks for numbers that are none.
+const WATCH_EVERY: u32 = 10;
+
+/// The CPU engine in floats of type `T`.
+pub struct CpuEngine<T: Real> {
+    scene: Arc<Scene>,
+    fields: Fields<T>,
+    direct: Option<DirectSolver>,
+    solve: SolveInfo,
+    fallbacks: u32,
+}
+
+/// The arrays of a solver are taken out together and put back together.
+macro_rules! with_taken {
+    ($fields:expr, [$($name:ident = $buffer:expr),*], $body:expr) => {{
+        $(let mut $name = $fields.take($buffer)?;)*
+        let result = $body;
+        $($fields.put($buffer, $name);)*
+        result
+    }};
+}
+
+impl<T: Real> CpuEngine<T> {
+    /// Allocates the plan's arrays and fills in what the scene begins with. The setup operations are yet to run.
+    pub fn new(scene: Arc<Scene>) -> Result<Self, EngineError> {
+        let mut fields = Fields::new(&scene.plan, scene.sizes);
+        for (buffer, data) in scene.initial() {
+            fields.write(buffer, &data)?;
+        }
+        Ok(Self { scene, fields, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
+    }
+
+    fn fits<'a, W: WeightFunction>(&'a self, points: Points, weight: W) -> Result<Fits<'a, T, W>, EngineError> {
+        Ok(Fits {
+            position: self.fields.real(Buffer::Position(points))?,
+            support: self.fields.real(Buffer::Support(points))?,
+            neighbours: self.fields.index(Buffer::Neighbours(points))?,
+            count: self.fields.index(Buffer::NeighbourCount(points))?,
+            capacity: self.scene.sizes.capacity,
+            factor: self.fields.real(Buffer::Factor(points))?,
+            weight,
+        })
+    }
+
+    fn faces(&self) -> Result<Faces<'_, T>, EngineError> {
+        Ok(Faces {
+            neighbours: self.fields.index(Buffer::FaceNeighbours)?,
+            weight: self.fields.real(Buffer::FaceWeight)?,
+            count: self.fields.index(Buffer::FaceCount)?,
+            capacity: self.scene.sizes.face_capacity,
+        })
+    }
+
+    /// The points that a force acts on: all where the wall rows of the pressure need it, else those inside.
+    fn forced(&self) -> usize {
+        let sizes = &self.scene.sizes;
+        if self.scene.plan.forces_reach_walls() { sizes.points } else { sizes.interior }
+    }
+
+    fn standing(&self, buffer: fn(Points) -> Buffer) -> Result<&[T], EngineError> {
+        self.fields.real(buffer(Points::Standing))
+    }
+
+    fn geometry(&mut self, operation: Operation) -> Result<(), EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let (sizes, constants) = (&scene.sizes, &scene.constants);
+        let list = |fields: &Fields<T>, points: Points| -> Result<CellList, EngineError> {
+            Ok(CellList {
+                start: fields.index(Buffer::CellStart(points))?.to_vec(),
+                points: fields.index(Buffer::CellPoints(points))?[..sizes.points].to_vec(),
+            })
+        };
+        match operation {
+            Operation::BuildCells(points) => {
+                let mut cells = CellList::default();
+                let position = self.fields.real(Buffer::Position(points))?;
+                neighbours::build_cells(position, sizes.points, &constants.grid, &mut cells);
+                cells.points.resize(scene.padded(), 0);
+                self.fields.put_index(Buffer::CellStart(points), cells.start);
+                self.fields.put_index(Buffer::CellPoints(points), cells.points);
+            }
+            Operation::FindNeighbours(points) => {
+                let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
+                let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
+                let cells = list(&self.fields, points)?;
+                let most = neighbours::find_neighbours(
+                    self.fields.real(Buffer::Position(points))?,
+                    sizes.points,
+                    T::from_f64(constants.radius),
+                    &constants.grid,
+                    &cells,
+                    sizes.capacity,
+                    &mut found,
+                    &mut count,
+                );
+                self.fields.put_index(Buffer::Neighbours(points), found);
+                self.fields.put_index(Buffer::NeighbourCount(points), count);
+                if most > sizes.capacity {
+                    return Err(EngineError::NeighbourOverflow { found: most as u32, capacity: sizes.capacity });
+                }
+                if points == Points::Moved {
+                    self.fields.take(Buffer::Support(points)).map(|mut support| {
+                        support.fill(T::from_f64(constants.radius));
+                        self.fields.put(Buffer::Support(points), support);
+                    })?;
+                }
+            }
+            Operation::Factorise(points) => {
+                let mut factor = self.fields.take(Buffer::Factor(points))?;
+                let mut rung = self.fields.take_index(Buffer::Rung(points))?;
+                with_weight!(constants.weight, weight => fit::factorise(
+                    self.fields.real(Buffer::Position(points))?,
+                    self.fields.real(Buffer::Support(points))?,
+                    self.fields.index(Buffer::Neighbours(points))?,
+                    self.fields.index(Buffer::NeighbourCount(points))?,
+                    sizes.capacity,
+                    weight,
+                    &mut factor,
+                    &mut rung,
+                ));
+                self.fields.put(Buffer::Factor(points), factor);
+                self.fields.put_index(Buffer::Rung(points), rung);
+            }
+            Operation::WidenSupport(points) => {
+                let mut factor = self.fields.take(Buffer::Factor(points))?;
+                let mut rung = self.fields.take_index(Buffer::Rung(points))?;
+                let mut support = self.fields.take(Buffer::Support(points))?;
+                let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
+                let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
+                let cells = list(&self.fields, points)?;
+                with_weight!(constants.weight, weight => fit::widen_support(
+                    self.fields.real(Buffer::Position(points))?,
+                    sizes.points,
+                    &constants.grid,
+                    &cells,
+                    sizes.capacity,
+                    weight,
+                    &mut support,
+                    &mut found,
+                    &mut count,
+                    &mut factor,
+                    &mut rung,
+                ));
+                self.fields.put(Buffer::Factor(points), factor);
+                self.fields.put_index(Buffer::Rung(points), rung);
+                self.fields.put(Buffer::Support(points), support);
+                self.fields.put_index(Buffer::Neighbours(points), found);
+                self.fields.put_index(Buffer::NeighbourCount(points), count);
+            }
+            _ => {
+                with_taken!(
+                    self.fields,
+                    [row = Buffer::MatrixRow, scale = Buffer::RowScale, diagonal = Buffer::Diagonal],
+                    with_weight!(constants.weight, weight => collocated::assemble(
+                        self.fits(Points::Standing, weight)?,
+                        self.fields.real(Buffer::Normal)?,
+                        sizes.points,
+                        sizes.interior,
+                        &mut row,
+                        &mut scale,
+                        &mut diagonal,
+                    ))
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn drift(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let (sizes, constants) = (&scene.sizes, &scene.constants);
+        let dt = T::from_f64(clock.dt);
+        let moving = scene.plan.moving();
+        match operation {
+            Operation::FitVelocity(points) => {
+                with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
+                    let values = self.fields.real(moving)?;
+                    with_weight!(constants.weight, weight =>
+                        derivative::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
+                });
+            }
+            Operation::MovePoints => {
+                let place = Buffer::Position(Points::Moved);
+                with_taken!(self.fields, [moved = place], {
+                    let standing = self.standing(Buffer::Position)?;
+                    remap::move_points(standing, self.fields.real(moving)?, dt, sizes.interior, &mut moved);
+                });
+            }
+            Operation::RemapForward => {
+                with_taken!(self.fields, [velocity = Buffer::Velocity], {
+                    remap::remap_forward(
+                        self.standing(Buffer::Position)?,
+                        self.fields.real(Buffer::Position(Points::Moved))?,
+                        self.fields.real(Buffer::Support(Points::Moved))?,
+                        self.fields.real(moving)?,
+                        self.fields.real(Buffer::Coefficients)?,
+                        sizes.interior,
+                        &mut velocity,
+                    );
+                });
+            }
+            Operation::KeepVelocity => {
+                with_taken!(self.fields, [velocity = Buffer::Velocity], {
+                    velocity.copy_from_slice(self.fields.real(moving)?);
+                });
+            }
+            _ => {
+                with_taken!(self.fields, [velocity = Buffer::Velocity], {
+                    remap::remap_departure(
+                        self.standing(Buffer::Position)?,
+                        self.standing(Buffer::Support)?,
+                        self.fields.index(Buffer::Neighbours(Points::Standing))?,
+                        self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+                        sizes.capacity,
+                        constants.size.to_array().map(T::from_f64),
+                        self.fields.real(moving)?,
+                        self.fields.real(Buffer::Coefficients)?,
+                        dt,
+                        sizes.interior,
+                        &mut velocity,
+                    );
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn kick(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let (sizes, constants) = (&scene.sizes, &scene.constants);
+        let standing = Points::Standing;
+        let kick_per_density = T::from_f64(clock.kick / constants.density);
+        match operation {
+            Operation::ClearKick => {
+                with_taken!(self.fields, [kick = Buffer::Kick], kick.fill(T::zero()));
+            }
+            Operation::EstimateMiddle => {
+                with_taken!(self.fields, [middle = Buffer::Projected, kick = Buffer::Kick], {
+                    kick::estimate_middle(self.fields.real(Buffer::Velocity)?, &mut middle, &mut kick);
+                });
+            }
+            Operation::Viscosity => {
+                let diffusion = T::from_f64(clock.kick * constants.viscosity);
+                with_taken!(self.fields, [kick = Buffer::Kick], {
+                    let field = self.fields.real(scene.plan.diffused())?;
+                    with_weight!(constants.weight, weight => derivative::viscosity(
+                        self.fits(standing, weight)?, field, diffusion, self.forced(), &mut kick));
+                });
+            }
+            Operation::Predict => {
+                with_taken!(self.fields, [predicted = Buffer::Projected], {
+                    let velocity = self.fields.real(Buffer::Velocity)?;
+                    kick::predict(velocity, self.fields.real(Buffer::Kick)?, &mut predicted);
+                });
+            }
+            Operation::CorrectByFit => {
+                with_taken!(self.fields, [projected = Buffer::Projected], {
+                    let pressure = self.fields.real(Buffer::Pressure)?;
+                    with_weight!(constants.weight, weight => derivative::correct_by_fit(
+                        self.fits(standing, weight)?, pressure, kick_per_density, sizes.interior, &mut projected));
+                });
+            }
+            Operation::CorrectByAdjoint => {
+                with_taken!(self.fields, [projected = Buffer::Projected], {
+                    conservative::correct_by_adjoint(
+                        self.faces()?,
+                        self.standing(Buffer::Position)?,
+                        self.fields.real(Buffer::Volume)?,
+                        self.fields.real(Buffer::Pressure)?,
+                        kick_per_density,
+                        sizes.interior,
+                        &mut projected,
+                    );
+                });
+            }
+            Operation::HoldWalls => {
+                with_taken!(self.fields, [projected = Buffer::Projected], {
+                    let walls = 2 * sizes.interior..;
+                    projected[walls.clone()].copy_from_slice(&self.fields.real(Buffer::Velocity)?[walls]);
+                });
+            }
+            _ => {
+                let second = T::from_f64(clock.second_kick);
+                let (kicks, means) = (Buffer::Kick, Buffer::PressureKick);
+                with_taken!(self.fields, [kick = kicks, mean = means, reflected = Buffer::Reflected], {
+                    let velocity = self.fields.real(Buffer::Velocity)?;
+                    let middle = self.fields.real(Buffer::Projected)?;
+                    kick::reflect(velocity, middle, second, &mut kick, &mut mean, &mut reflected);
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn pressure(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let (sizes, constants) = (&scene.sizes, &scene.constants);
+        let density_per_kick = constants.density / clock.kick;
+        match operation {
+            Operation::Divergence => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    let scale = T::from_f64(-density_per_kick);
+                    let velocity = self.fields.real(Buffer::Projected)?;
+                    conservative::divergence(
+                        self.faces()?,
+                        self.standing(Buffer::Position)?,
+                        velocity,
+                        scale,
+                        &mut source,
+                    );
+                });
+            }
+            Operation::CollocatedSource => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    with_weight!(constants.weight, weight => collocated::source(
+                        self.fits(Points::Standing, weight)?,
+                        self.fields.real(Buffer::Normal)?,
+                        self.fields.real(Buffer::RowScale)?,
+                        self.fields.real(Buffer::Velocity)?,
+                        self.fields.real(Buffer::Projected)?,
+                        T::from_f64(density_per_kick),
+                        [sizes.interior, sizes.points],
+                        &mut source,
+                    ));
+                });
+            }
+            Operation::DirectSolve => self.solve_directly()?,
+            _ => {
+                let stop = Stop {
+                    residual: constants.tolerance * density_per_kick / clock.dt,
+                    max_iterations: constants.max_iterations,
+                };
+                self.solve = match operation {
+                    Operation::ConjugateGradient => self.conjugate_gradient(stop)?,
+                    _ => self.bicgstab(stop)?,
+                };
+                if self.solve.outcome != Outcome::Converged {
+                    self.solve_directly()?;
+                    self.fallbacks += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn conservative(&self) -> Result<Conservative<'_, T>, EngineError> {
+        Ok(Conservative { faces: self.faces()?, volume: self.fields.real(Buffer::Volume)? })
+    }
+
+    fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
+        let points = self.scene.sizes.points;
+        Ok(with_taken!(
+            self.fields,
+            [
+                pressure = Buffer::Pressure,
+                residual = Buffer::Residual,
+                direction = Buffer::Direction,
+                product = Buffer::Product
+            ],
+            {
+                let (diagonal, source) = (self.fields.real(Buffer::Diagonal)?, self.fields.real(Buffer::Source)?);
+                let (residual, direction, product) = (&mut residual[..], &mut direction[..], &mut product[..]);
+                let work = conjugate_gradient::Work { residual, direction, product };
+                conjugate_gradient::solve(&self.conservative()?, diagonal, points, source, stop, work, &mut pressure)
+            }
+        ))
+    }
+
+    fn bicgstab(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
+        let (points, shift) = (self.scene.sizes.points, self.scene.constants.shift);
+        Ok(with_taken!(
+            self.fields,
+            [
+                pressure = Buffer::Pressure,
+                residual = Buffer::Residual,
+                direction = Buffer::Direction,
+                product = Buffer::Product,
+                shadow = Buffer::Shadow,
+                stabilised = Buffer::Stabilised,
+                stabilised_product = Buffer::StabilisedProduct,
+                preconditioned = Buffer::Preconditioned
+            ],
+            {
+                let (diagonal, source) = (self.fields.real(Buffer::Diagonal)?, self.fields.real(Buffer::Source)?);
+                let work = bicgstab::Work {
+                    residual: &mut residual,
+                    direction: &mut direction,
+                    product: &mut product,
+                    shadow: &mut shadow,
+                    stabilised: &mut stabilised,
+                    stabilised_product: &mut stabilised_product,
+                    preconditioned: &mut preconditioned,
+                };
+                if self.scene.cells().is_some() {
+                    let matrix = self.conservative()?;
+                    bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
+                } else {
+                    let matrix = collocated::Collocated {
+                        neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
+                        count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+                        capacity: self.scene.sizes.capacity,
+                        row: self.fields.real(Buffer::MatrixRow)?,
+                    };
+                    bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
+                }
+            }
+        ))
+    }
+
+    fn solve_directly(&mut self) -> Result<(), EngineError> {
+        if self.direct.is_none() {
+            self.direct = Some(DirectSolver::new(&self.scene, &mut |buffer| self.fields.read(buffer))?);
+        }
+        let source = self.fields.read(Buffer::Source)?;
+        if let (Some(direct), Data::Real(source)) = (&self.direct, source) {
+            let pressure = direct.solve(&source)?;
+            self.fields.write(Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
+            self.solve.outcome = Outcome::Converged;
+        }
+        Ok(())
+    }
+
+    /// The first entry that is not a number among the fields that carry the flow from step to step.
+    fn non_finite(&self) -> Result<Option<NonFinite>, EngineError> {
+        let points = self.scene.sizes.points;
+        for buffer in [Buffer::Projected, Buffer::Pressure] {
+            let Ok(values) = self.fields.real(buffer) else { continue };
+            let width = values.len() / self.scene.padded();
+            if let Some(entry) = values[..points * width].iter().position(|value| !value.is_finite()) {
+                return Ok(Some(NonFinite { buffer, point: entry / width }));
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl<T: Real> Engine for CpuEngine<T> {
+    fn info(&self) -> EngineInfo {
+        EngineInfo { engine: "cpu", adapter: None, precision: T::NAME }
+    }
+
+    fn write(&mut self, buffer: Buffer, data: &Data) -> Result<(), EngineError> {
+        self.fields.write(buffer, data)
+    }
+
+    fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError> {
+        self.fields.read(buffer)
+    }
+
+    fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        match operation {
+            Operation::BuildCells(_)
+            | Operation::FindNeighbours(_)
+            | Operation::Factorise(_)
+            | Operation::WidenSupport(_)
+            | Operation::AssembleCollocated => self.geometry(operation),
+            Operation::FitVelocity(_)
+            | Operation::RemapDeparture
+            | Operation::MovePoints
+            | Operation::RemapForward
+            | Operation::KeepVelocity => self.drift(operation, clock),
+            Operation::ClearKick
+            | Operation::EstimateMiddle
+            | Operation::Viscosity
+            | Operation::Predict
+            | Operation::CorrectByFit
+            | Operation::CorrectByAdjoint
+            | Operation::HoldWalls
+            | Operation::Reflect => self.kick(operation, clock),
+            Operation::Divergence
+            | Operation::CollocatedSource
+            | Operation::ConjugateGradient
+            | Operation::Bicgstab
+            | Operation::DirectSolve => self.pressure(operation, clock),
+        }
+    }
+
+    fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let before = self.fallbacks;
+        let mut done = Advance::default();
+        while done.steps < steps {
+            for &operation in scene.plan.drift.iter().chain(&scene.plan.kick) {
+                self.apply(operation, clock)?;
+            }
+            done.steps += 1;
+            done.iterations += u64::from(self.solve.iterations);
+            if done.steps % WATCH_EVERY == 0 || done.steps == steps {
+                done.trouble = self.non_finite()?;
+                if done.trouble.is_some() {
+                    break;
+                }
+            }
+        }
+        done.fallbacks = self.fallbacks - before;
+        Ok(done)
+    }
+
+    fn solve_info(&self) -> SolveInfo {
+        self.solve
+    }
+
+    fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {
+        let scene = Arc::clone(&self.scene);
+        let points = scene.sizes.points;
+        let mut reported = self.fields.take(Buffer::Reported)?;
+        let velocity = self.fields.real(Buffer::Projected)?;
+        let mut measurement = measure::speeds(velocity, self.fields.real(Buffer::Volume)?, &mut reported, points, elapsed);
+        if scene.cells().is_some() {
+            let mut flux = vec![T::zero(); scene.padded()];
+            let position = self.standing(Buffer::Position)?;
+            conservative::divergence(self.faces()?, position, velocity, T::from_f64(1.0), &mut flux);
+            measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
+        } else {
+            let mut divergence = vec![T::zero(); scene.padded()];
+            with_weight!(scene.constants.weight, weight => derivative::fitted_divergence(
+                self.fits(Points::Standing, weight)?, velocity, scene.sizes.interior, &mut divergence));
+            measurement.divergence = measure::rms(&divergence, points);
+        }
+        self.fields.put(Buffer::Reported, reported);
+        Ok(measurement)
+    }
+}

@@ -1,0 +1,168 @@
+//! Jacobi-preconditioned BiCGStab for a singular pressure matrix of either form.
+//!
+//! Solves `(A + c 1 1^T / N) p = b`: the rank-one shift makes the system regular whatever the left null vector is, and equals a
+//! Lagrange multiplier on the mean pressure. Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for
+//! Sparse Linear Systems (2003), section 7.4.2.
+
+use crate::cpu::blocks;
+use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
+use crate::cpu::real::{Pack, Real};
+use crate::engine::{Outcome, SolveInfo};
+
+/// Vectors of the solver, one entry a point each.
+pub struct Work<'a, T> {
+    pub residual: &'a mut [T],
+    pub direction: &'a mut [T],
+    pub product: &'a mut [T],
+    pub shadow: &'a mut [T],
+    pub stabilised: &'a mut [T],
+    pub stabilised_product: &'a mut [T],
+    /// The vector that a product is taken of, preconditioned.
+    pub preconditioned: &'a mut [T],
+}
+
+/// Solves from the `pressure` at hand. Postcondition as for conjugate gradients.
+pub fn solve<T: Real>(
+    matrix: &impl Rows<T>,
+    diagonal: &[T],
+    points: usize,
+    shift: f64,
+    source: &[T],
+    stop: Stop,
+    work: Work<T>,
+    pressure: &mut [T],
+) -> SolveInfo {
+    let Work { residual, direction, product, shadow, stabilised, stabilised_product, preconditioned: scaled } = work;
+    let per_point = shift / points as f64;
+    let mut monitor = Monitor::new(stop, points);
+    let load = |values: &[T], i: usize| T::Pack::load(&values[i..]);
+    loop {
+        let constant = T::Pack::splat(T::from_f64(per_point * total(pressure)));
+        let [square, scale, mut rho] = blocks::sum_over([&mut *residual, &mut *shadow], |start, [r, s]| {
+            let mut sums = [T::Pack::zero(); 3];
+            for k in (0..r.len()).step_by(T::Pack::LANES) {
+                let i = start + k;
+                let value = load(source, i) - matrix.product(i, pressure) - constant;
+                let value = within::<T>(value, i, points);
+                value.store(&mut r[k..]);
+                value.store(&mut s[k..]);
+                matrix.measure(i, value, load(diagonal, i) * load(pressure, i), &mut sums[..2]);
+                sums[2] += value * value;
+            }
+            sums.map(|sum| lanes::<T>(sum))
+        });
+        if monitor.recomputed::<T>(square, scale) == Verdict::Done {
+            return monitor.info;
+        }
+        direction.copy_from_slice(residual);
+        loop {
+            // product = (A + shift) D^-1 direction.
+            shifted_product(matrix, diagonal, points, per_point, direction, scaled, product);
+            let [sv] = dots([(shadow, product)]);
+            if sv == 0.0 || rho == 0.0 || !sv.is_finite() {
+                monitor.info.outcome = Outcome::BrokeDown;
+                break;
+            }
+            let alpha = T::Pack::splat(T::from_f64(rho / sv));
+            let [] = blocks::sum_over([&mut *stabilised], |start, [s]| {
+                for k in (0..s.len()).step_by(T::Pack::LANES) {
+                    let i = start + k;
+                    (load(residual, i) - alpha * load(product, i)).store(&mut s[k..]);
+                }
+                []
+            });
+            shifted_product(matrix, diagonal, points, per_point, stabilised, scaled, stabilised_product);
+            let [ts, tt] = dots([(stabilised_product, stabilised), (stabilised_product, stabilised_product)]);
+            // A zero here means that the first half of the iteration has already arrived.
+            let omega = T::from_f64(if tt > 0.0 { ts / tt } else { 0.0 });
+            let omega_pack = T::Pack::splat(omega);
+            let [square, scale, next] = blocks::sum_over([&mut *residual, &mut *pressure], |start, [r, p]| {
+                let mut sums = [T::Pack::zero(); 3];
+                for k in (0..r.len()).step_by(T::Pack::LANES) {
+                    let i = start + k;
+                    let diagonal = load(diagonal, i);
+                    let step = alpha * load(direction, i) + omega_pack * load(stabilised, i);
+                    let solution = load(p, k) + step / diagonal;
+                    let value = load(stabilised, i) - omega_pack * load(stabilised_product, i);
+                    solution.store(&mut p[k..]);
+                    value.store(&mut r[k..]);
+                    matrix.measure(i, value, diagonal * solution, &mut sums[..2]);
+                    sums[2] += load(shadow, i) * value;
+                }
+                sums.map(|sum| lanes::<T>(sum))
+            });
+            let verdict = monitor.iterated::<T>(square, scale);
+            if verdict != Verdict::Continue {
+                break;
+            }
+            if omega == T::zero() || next == 0.0 {
+                // Begin again from the residual at hand, with a new shadow.
+                break;
+            }
+            let beta = T::Pack::splat(T::from_f64(next / rho * (rho / sv) / omega.to_f64()));
+            rho = next;
+            let [] = blocks::sum_over([&mut *direction], |start, [d]| {
+                for k in (0..d.len()).step_by(T::Pack::LANES) {
+                    let i = start + k;
+                    let kept = load(d, k) - omega_pack * load(product, i);
+                    (load(residual, i) + beta * kept).store(&mut d[k..]);
+                }
+                []
+            });
+        }
+    }
+}
+
+/// `out = (A + c 1 1^T / N) D^-1 x`.
+fn shifted_product<T: Real>(
+    matrix: &impl Rows<T>,
+    diagonal: &[T],
+    points: usize,
+    per_point: f64,
+    x: &[T],
+    scaled: &mut [T],
+    out: &mut [T],
+) {
+    let [sum] = blocks::sum_over([&mut *scaled], |start, [z]| {
+        let mut sum = T::Pack::zero();
+        for k in (0..z.len()).step_by(T::Pack::LANES) {
+            let i = start + k;
+            let value = T::Pack::load(&x[i..]) / T::Pack::load(&diagonal[i..]);
+            value.store(&mut z[k..]);
+            sum += value;
+        }
+        [lanes::<T>(sum)]
+    });
+    let constant = T::Pack::splat(T::from_f64(per_point * sum));
+    let [] = blocks::sum_over([out], |start, [q]| {
+        for k in (0..q.len()).step_by(T::Pack::LANES) {
+            let i = start + k;
+            within::<T>(matrix.product(i, scaled) + constant, i, points).store(&mut q[k..]);
+        }
+        []
+    });
+}
+
+fn dots<T: Real, const M: usize>(pairs: [(&[T], &[T]); M]) -> [f64; M] {
+    let length = pairs.first().map_or(0, |(a, _)| a.len());
+    blocks::sum_ranges(length, |range| {
+        let mut sums = [T::Pack::zero(); M];
+        for i in range.step_by(T::Pack::LANES) {
+            for (sum, (a, b)) in sums.iter_mut().zip(&pairs) {
+                *sum += T::Pack::load(&a[i..]) * T::Pack::load(&b[i..]);
+            }
+        }
+        sums.map(|sum| lanes::<T>(sum))
+    })
+}
+
+fn total<T: Real>(values: &[T]) -> f64 {
+    let [sum] = blocks::sum_ranges(values.len(), |range| {
+        let mut sum = T::Pack::zero();
+        for i in range.step_by(T::Pack::LANES) {
+            sum += T::Pack::load(&values[i..]);
+        }
+        [lanes::<T>(sum)]
+    });
+    sum
+}

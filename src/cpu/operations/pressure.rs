@@ -1,0 +1,117 @@
+//! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
+
+use crate::cpu::real::{Pack, Real};
+use crate::engine::{Outcome, SolveInfo};
+
+/// A pressure matrix, a pack of rows at a time.
+pub trait Rows<T: Real>: Sync {
+    /// `(A p)_i` for the points `i..i + LANES`.
+    fn product(&self, i: usize, p: &[T]) -> T::Pack;
+
+    /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the
+    /// diagonal times the solution, which is what rounding errors are measured against.
+    fn measure(&self, i: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]);
+}
+
+/// When an iterative solve stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Root mean square of the residual, as a density `r_i / V_i`, at which the solve is done.
+    pub residual: f64,
+    pub max_iterations: u32,
+}
+
+impl Stop {
+    /// Iterations without a tenth off the best residual after which a solve has stagnated.
+    pub const PATIENCE: u32 = 250;
+    /// Times that a solve may begin again from a recomputed residual that is not what the recurrence promised.
+    pub const RESTARTS: u32 = 3;
+    /// A residual below this many rounding units of the diagonal's product is as small as it gets.
+    pub const FLOOR: f64 = 4.0;
+}
+
+/// Whether to go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    Continue,
+    /// By the recurrence: recompute.
+    Check,
+    Done,
+}
+
+/// Watches the residual of one solve.
+pub struct Monitor {
+    stop: Stop,
+    points: usize,
+    best: f64,
+    since_best: u32,
+    starts: u32,
+    pub info: SolveInfo,
+}
+
+impl Monitor {
+    pub fn new(stop: Stop, points: usize) -> Self {
+        Self { stop, points, best: f64::INFINITY, since_best: 0, starts: 0, info: SolveInfo::default() }
+    }
+
+    fn reached<T: Real>(&self, square: f64, scale: f64) -> (f64, bool) {
+        let rms = |square: f64| (square / self.points as f64).sqrt();
+        let floor = Stop::FLOOR * T::EPSILON.to_f64() * rms(scale);
+        (rms(square), rms(square) <= self.stop.residual.max(floor))
+    }
+
+    /// Takes a residual recomputed from the solution: the first one, and one after every stretch of iterations.
+    pub fn recomputed<T: Real>(&mut self, square: f64, scale: f64) -> Verdict {
+        let (now, reached) = self.reached::<T>(square, scale);
+        if self.starts == 0 {
+            self.info.first_residual = now;
+        }
+        self.info.last_residual = now;
+        if !now.is_finite() {
+            self.info.outcome = Outcome::BrokeDown;
+        } else if reached {
+            self.info.outcome = Outcome::Converged;
+        } else if self.starts > Stop::RESTARTS || self.info.iterations >= self.stop.max_iterations {
+            self.info.outcome = Outcome::Stagnated;
+        } else if self.info.outcome == Outcome::Converged {
+            self.starts += 1;
+            (self.best, self.since_best) = (now, 0);
+            return Verdict::Continue;
+        }
+        Verdict::Done
+    }
+
+    /// Takes a residual from the recurrence, after one more iteration.
+    pub fn iterated<T: Real>(&mut self, square: f64, scale: f64) -> Verdict {
+        self.info.iterations += 1;
+        let (now, reached) = self.reached::<T>(square, scale);
+        if now < 0.9 * self.best {
+            (self.best, self.since_best) = (now, 0);
+        } else {
+            self.since_best += 1;
+        }
+        if !now.is_finite() {
+            self.info.outcome = Outcome::BrokeDown;
+        } else if self.since_best >= Stop::PATIENCE {
+            self.info.outcome = Outcome::Stagnated;
+        } else if !reached && self.info.iterations < self.stop.max_iterations {
+            return Verdict::Continue;
+        }
+        Verdict::Check
+    }
+}
+
+/// Sum over the lanes.
+#[inline(always)]
+pub fn lanes<T: Real>(pack: T::Pack) -> f64 {
+    (0..T::Pack::LANES).map(|lane| pack.lane(lane).to_f64()).sum()
+}
+
+/// `value`, zero in the lanes past the last point.
+#[inline(always)]
+pub fn within<T: Real>(value: T::Pack, i: usize, points: usize) -> T::Pack {
+    if i + T::Pack::LANES <= points {
+        return value;
+    }
+    T::Pack::from_lanes(|lane| if i + lane < points { value.lane(lane) } else { T::zero() })
+}

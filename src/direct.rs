@@ -1,0 +1,134 @@
+//! A sparse direct solve of the pressure equation, by faer, on the host, in f64.
+//!
+//! The independent check of the iterative solvers, their fallback when one stalls, and a solver in its own right: on points that
+//! stand still the factorisation is made once. Both matrices are singular by the constants. The symmetric one is
+//! grounded at its last point and factorised by Cholesky. The collocated one is solved with a Lagrange multiplier
+//! `lambda` on the mean, `A p + lambda 1 = b`: row `k` is replaced by `p_k = 0`, and the two solutions for `b` and for
+//! the vector of ones are put together so that row `k` holds too.
+
+use faer::linalg::solvers::{ShapeCore, Solve};
+use faer::sparse::linalg::solvers::{Llt, Lu};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Mat, Side};
+
+use crate::cloud::voronoi::Cells;
+use crate::engine::{Data, EngineError};
+use crate::scene::Scene;
+use crate::step::{BLOCK, Buffer, Points};
+
+/// A pressure matrix, factorised.
+pub struct DirectSolver(Factor);
+
+enum Factor {
+    Symmetric(Llt<usize, f64>),
+    General { lu: Lu<usize, f64>, row: Vec<(usize, f64)>, ones: Vec<f64> },
+}
+
+impl DirectSolver {
+    /// Factorises the matrix of the scene's form. `read` gives the arrays that an engine has assembled.
+    pub fn new(
+        scene: &Scene,
+        read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>,
+    ) -> Result<Self, EngineError> {
+        if let Some(cells) = scene.cells() {
+            return Self::conservative(cells);
+        }
+        let rows = collocated_rows(scene, read)?;
+        Self::collocated(&rows)
+    }
+
+    /// The matrix `K` of the conservative form.
+    pub fn conservative(cells: &Cells) -> Result<Self, EngineError> {
+        let kept = cells.volume.len() - 1;
+        let mut entries = Vec::with_capacity(4 * kept);
+        for point in 0..kept {
+            entries.push(Triplet::new(point, point, cells.faces(point).map(|(_, weight)| weight).sum()));
+            let lower = cells.faces(point).filter(|&(other, _)| other < point);
+            entries.extend(lower.map(|(other, weight)| Triplet::new(point, other, -weight)));
+        }
+        let matrix = sparse(kept, &entries)?;
+        matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Symmetric(factor))).map_err(failed)
+    }
+
+    /// A matrix whose rows sum to zero, row by row: column and value.
+    pub fn collocated(rows: &[Vec<(usize, f64)>]) -> Result<Self, EngineError> {
+        // Any interior row will do; the first is one.
+        let entries: Vec<_> = std::iter::once(Triplet::new(0, 0, 1.0))
+            .chain(rows.iter().enumerate().skip(1).flat_map(|(point, row)| {
+                row.iter().map(move |&(column, value)| Triplet::new(point, column, value))
+            }))
+            .collect();
+        let lu = sparse(rows.len(), &entries)?.sp_lu().map_err(failed)?;
+        let mut ones = vec![1.0; rows.len()];
+        ones[0] = 0.0;
+        let ones = solve(&lu, &ones);
+        Ok(Self(Factor::General { lu, row: rows[0].clone(), ones }))
+    }
+
+    /// The pressure of mean zero for a right side of one entry a point, Pa.
+    pub fn solve(&self, source: &[f64]) -> Result<Vec<f64>, EngineError> {
+        let mut pressure = match &self.0 {
+            Factor::Symmetric(factor) => {
+                let points = factor.ncols() + 1;
+                let mean = source[..points].iter().sum::<f64>() / points as f64;
+                let right: Vec<f64> = source[..points - 1].iter().map(|b| b - mean).collect();
+                let mut pressure = solve(factor, &right);
+                pressure.push(0.0);
+                pressure
+            }
+            Factor::General { lu, row, ones } => {
+                let mut right = source[..ones.len()].to_vec();
+                right[0] = 0.0;
+                let pressure = solve(lu, &right);
+                let along = |x: &[f64]| row.iter().map(|&(column, value)| value * x[column]).sum::<f64>();
+                let multiplier = (source[0] - along(&pressure)) / (1.0 - along(ones));
+                pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
+            }
+        };
+        let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
+        pressure.iter_mut().for_each(|p| *p -= mean);
+        if pressure.iter().all(|p| p.is_finite()) {
+            Ok(pressure)
+        } else {
+            Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned()))
+        }
+    }
+}
+
+/// The rows of the collocated matrix, diagonal included, from the arrays of an engine.
+pub fn collocated_rows(
+    scene: &Scene,
+    read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>,
+) -> Result<Vec<Vec<(usize, f64)>>, EngineError> {
+    let standing = Points::Standing;
+    let mut index = |buffer| match read(buffer)? {
+        Data::Index(values) => Ok(values),
+        Data::Real(_) => Err(EngineError::Absent(buffer)),
+    };
+    let (neighbours, count) = (index(Buffer::Neighbours(standing))?, index(Buffer::NeighbourCount(standing))?);
+    let Data::Real(row) = read(Buffer::MatrixRow)? else { return Err(EngineError::Absent(Buffer::MatrixRow)) };
+    let slots = scene.sizes.capacity;
+    let rows = (0..scene.sizes.points).map(|point| {
+        let at = |slot: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
+        let mut entries: Vec<(usize, f64)> =
+            (0..count[point] as usize).map(|slot| (neighbours[at(slot)] as usize, row[at(slot)])).collect();
+        let diagonal = -entries.iter().map(|&(_, value)| value).sum::<f64>();
+        entries.push((point, diagonal));
+        entries
+    });
+    Ok(rows.collect())
+}
+
+fn sparse(size: usize, entries: &[Triplet<usize, usize, f64>]) -> Result<SparseColMat<usize, f64>, EngineError> {
+    SparseColMat::try_new_from_triplets(size, size, entries).map_err(failed)
+}
+
+fn solve(factor: &impl Solve<f64>, right: &[f64]) -> Vec<f64> {
+    let right = Mat::from_fn(right.len(), 1, |row, _| right[row]);
+    let solution = factor.solve(&right);
+    (0..solution.nrows()).map(|row| solution[(row, 0)]).collect()
+}
+
+fn failed(error: impl std::fmt::Debug) -> EngineError {
+    EngineError::Direct(format!("the sparse factorisation failed: {error:?}"))
+}

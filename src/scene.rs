@@ -1,0 +1,224 @@
+//! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
+use crate::cloud::voronoi::Cells;
+use crate::cloud::{Cloud, CloudError, grid};
+use crate::engine::{Clock, Data};
+use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
+
+/// Everything about a run that does not change while it runs, in f64, on the host.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    pub case: Case,
+    pub cloud: Cloud,
+    pub plan: Plan,
+    pub sizes: Sizes,
+    pub constants: Constants,
+    /// Voronoi cells, where the plan's pressure is conservative.
+    cells: Option<Cells>,
+}
+
+/// Numbers that both engines use; each stands here alone and reaches WGSL from here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constants {
+    /// `r_e`, m.
+    pub radius: f64,
+    pub weight: Weight,
+    /// Cells of the neighbour search.
+    pub grid: Grid,
+    /// Width and height of the rectangle, m.
+    pub size: DVec2,
+    /// `l0`, m.
+    pub spacing: f64,
+    /// kg/m^3
+    pub density: f64,
+    /// Kinematic viscosity, m^2/s; 0 without viscosity.
+    pub viscosity: f64,
+    /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
+    pub tolerance: f64,
+    pub max_iterations: u32,
+    /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
+    pub shift: f64,
+}
+
+/// Why a case cannot be made ready.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    #[error(transparent)]
+    Cloud(#[from] CloudError),
+    #[error(
+        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point 5"
+    )]
+    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize },
+}
+
+/// Two points nearer than this, in spacings, coincide: no derivative exists between them.
+const COINCIDENT: f64 = 1e-8;
+
+impl Scene {
+    /// Lays out the points, measures their neighbourhoods, and plans the step.
+    pub fn build(case: &Case) -> Result<Self, SceneError> {
+        Self::with_cloud(case, Cloud::build(case)?)
+    }
+
+    /// The same on points laid out by the caller.
+    pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
+        let plan = Plan::new(case);
+        let radius = case.method.radius * cloud.spacing;
+        let grid = Grid::new(cloud.size, radius);
+        let most = survey(&cloud, radius, case.method.radius)?;
+        let moves = plan.drift.contains(&Operation::MovePoints);
+        let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
+        let conservative = plan.form == Some(PressureForm::Conservative);
+        let cells = conservative.then(|| Cells::build(&cloud.position, cloud.size, cloud.spacing));
+        let sizes = Sizes {
+            points: cloud.len(),
+            interior: cloud.interior,
+            capacity,
+            face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
+            cells: grid.count(),
+        };
+        let pressure = case.effects.pressure.clone().unwrap_or_default();
+        let constants = Constants {
+            radius,
+            weight: case.method.weight,
+            grid,
+            size: cloud.size,
+            spacing: cloud.spacing,
+            density: case.fluid.density,
+            viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
+            tolerance: pressure.tolerance,
+            max_iterations: pressure.max_iterations,
+            shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
+        };
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, cells })
+    }
+
+    /// The Voronoi cells; `None` unless the pressure is conservative.
+    pub fn cells(&self) -> Option<&Cells> {
+        self.cells.as_ref()
+    }
+
+    /// Lengths in time of a step of `dt` s.
+    pub fn clock(&self, dt: f64) -> Clock {
+        match self.plan.splitting {
+            Splitting::Reflection => Clock { dt, kick: 0.5 * dt, second_kick: 1.0 },
+            Splitting::Projection => Clock { dt, kick: dt, second_kick: 0.0 },
+        }
+    }
+
+    /// True where a stalled iterative solve can be handed to the direct one.
+    pub fn has_direct_fallback(&self) -> bool {
+        self.case.effects.pressure.as_ref().is_some_and(|pressure| pressure.solver() != Solver::Direct)
+    }
+
+    /// What an engine's arrays hold before the setup operations run; an array not named holds zeros.
+    pub fn initial(&self) -> Vec<(Buffer, Data)> {
+        let cloud = &self.cloud;
+        let boundary = cloud.wall_velocity(&self.case.boundaries);
+        let mut velocity = vec![DVec2::ZERO; cloud.interior];
+        velocity.extend(boundary);
+        let mut normal = vec![DVec2::ZERO; cloud.interior];
+        normal.extend_from_slice(&cloud.normal);
+        let volume = self.cells.as_ref().map_or_else(|| cloud.nominal_volume(), |cells| cells.volume.clone());
+        let last = cloud.position.last().copied().unwrap_or_default();
+        let position = self.vectors(&cloud.position, last);
+        let mut data = vec![
+            (Buffer::Position(Points::Standing), position.clone()),
+            (Buffer::Position(Points::Moved), position),
+            (Buffer::Support(Points::Standing), Data::Real(vec![self.constants.radius; self.padded()])),
+            (Buffer::Support(Points::Moved), Data::Real(vec![self.constants.radius; self.padded()])),
+            (Buffer::Normal, self.vectors(&normal, DVec2::ZERO)),
+            (Buffer::Volume, self.scalars(&volume, 1.0)),
+        ];
+        for buffer in [Buffer::Velocity, Buffer::Projected, Buffer::Reflected, Buffer::Reported] {
+            data.push((buffer, self.vectors(&velocity, DVec2::ZERO)));
+        }
+        if let Some(cells) = &self.cells {
+            data.extend(self.faces(cells));
+        }
+        let used = self.plan.buffers();
+        data.retain(|(buffer, _)| used.contains(buffer));
+        data
+    }
+
+    fn faces(&self, cells: &Cells) -> Vec<(Buffer, Data)> {
+        let slots = self.sizes.face_capacity;
+        let length = self.padded() * slots;
+        let (mut neighbour, mut weight) = (vec![0; length], vec![0.0; length]);
+        let (mut count, mut diagonal) = (vec![0; self.padded()], vec![1.0; self.padded()]);
+        let at = |point: usize, slot: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
+        for point in 0..self.padded() {
+            let own = point.min(self.sizes.points - 1);
+            (0..slots).for_each(|slot| neighbour[at(point, slot)] = own as u32);
+        }
+        for point in 0..self.sizes.points {
+            for (slot, (other, face)) in cells.faces(point).enumerate() {
+                neighbour[at(point, slot)] = other as u32;
+                weight[at(point, slot)] = face;
+                count[point] += 1;
+            }
+            diagonal[point] = cells.faces(point).map(|(_, face)| face).sum();
+        }
+        vec![
+            (Buffer::FaceNeighbours, Data::Index(neighbour)),
+            (Buffer::FaceWeight, Data::Real(weight)),
+            (Buffer::FaceCount, Data::Index(count)),
+            (Buffer::Diagonal, Data::Real(diagonal)),
+        ]
+    }
+
+    /// Points rounded up to whole blocks.
+    pub fn padded(&self) -> usize {
+        self.sizes.points.div_ceil(BLOCK) * BLOCK
+    }
+
+    /// One number a point as an array, `filler` in the padding.
+    pub fn scalars(&self, values: &[f64], filler: f64) -> Data {
+        let mut values = values.to_vec();
+        values.resize(self.padded(), filler);
+        Data::Real(values)
+    }
+
+    /// One vector a point as an interleaved array, `filler` in the padding.
+    pub fn vectors(&self, values: &[DVec2], filler: DVec2) -> Data {
+        let padding = self.padded() - values.len();
+        let all = values.iter().copied().chain(std::iter::repeat_n(filler, padding));
+        Data::Real(all.flat_map(|value| value.to_array()).collect())
+    }
+
+    /// Zeros in the shape of `buffer`.
+    pub fn zeros(&self, buffer: Buffer) -> Data {
+        let length = buffer.length(&self.sizes);
+        match buffer.element() {
+            Element::Real => Data::Real(vec![0.0; length]),
+            Element::Index => Data::Index(vec![0; length]),
+        }
+    }
+}
+
+/// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
+fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError> {
+    let grid = grid::Grid::new(&cloud.position, cloud.size, radius);
+    let least = COINCIDENT * cloud.spacing;
+    let count = |point: usize| -> Result<usize, SceneError> {
+        let own = cloud.position[point];
+        let mut found = 0;
+        for other in (0..=1).flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
+            let square = cloud.position[other].distance_squared(own);
+            found += usize::from(square < radius * radius);
+            if square < least * least {
+                let (first, second) = (point.min(other), point.max(other));
+                return Err(CloudError::Coincident { first, second, x: own.x, y: own.y, least }.into());
+            }
+        }
+        if found < 5 {
+            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found });
+        }
+        Ok(found)
+    };
+    (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))
+}
