@@ -26,10 +26,7 @@ enum Factor {
 
 impl DirectSolver {
     /// Factorises the matrix of the scene's form. `read` gives the arrays that an engine has assembled.
-    pub fn new(
-        scene: &Scene,
-        read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>,
-    ) -> Result<Self, EngineError> {
+    pub fn new(scene: &Scene, read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>) -> Result<Self, EngineError> {
         if let Some(cells) = scene.cells() {
             return Self::conservative(cells);
         }
@@ -53,11 +50,12 @@ impl DirectSolver {
     /// A matrix whose rows sum to zero, row by row: column and value.
     pub fn collocated(rows: &[Vec<(usize, f64)>]) -> Result<Self, EngineError> {
         // Any interior row will do; the first is one.
-        let entries: Vec<_> = std::iter::once(Triplet::new(0, 0, 1.0))
-            .chain(rows.iter().enumerate().skip(1).flat_map(|(point, row)| {
-                row.iter().map(move |&(column, value)| Triplet::new(point, column, value))
-            }))
-            .collect();
+        let entries: Vec<_> =
+            std::iter::once(Triplet::new(0, 0, 1.0))
+                .chain(rows.iter().enumerate().skip(1).flat_map(|(point, row)| {
+                    row.iter().map(move |&(column, value)| Triplet::new(point, column, value))
+                }))
+                .collect();
         let lu = sparse(rows.len(), &entries)?.sp_lu().map_err(failed)?;
         let mut ones = vec![1.0; rows.len()];
         ones[0] = 0.0;

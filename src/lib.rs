@@ -8,6 +8,7 @@ pub mod direct;
 pub mod engine;
 pub mod measure;
 pub mod output;
+pub mod run;
 pub mod scene;
 pub mod simulation;
 pub mod snapshot;

@@ -154,8 +154,7 @@ impl Run<'_> {
             let count = (f64::from(asked)).min(left) as u32;
             let interrupted = loop {
                 let clock = self.scene.clock(dt);
-                let began = Instant::now();
-                let some = stretch(count - done, done, began - started, step);
+                let some = stretch(count - done, started.elapsed(), step);
                 let advance = self.engine.advance(some, &clock)?;
                 done += advance.steps;
                 step += u64::from(advance.steps);
@@ -310,12 +309,11 @@ impl Run<'_> {
 /// Rows in a row that must be steady.
 const STEADY_ROWS: u32 = 2;
 
-/// Steps to take before the observer is asked again: as many as fit into [`STRETCH`] at the pace so far.
-fn stretch(left: u32, done: u32, elapsed: Duration, steps: u64) -> u32 {
+/// Steps to take before the observer is asked again: one to learn the pace, then as many as fit into [`STRETCH`].
+fn stretch(left: u32, elapsed: Duration, steps: u64) -> u32 {
     if steps == 0 {
-        return if done == 0 { 1.min(left) } else { left };
+        return 1;
     }
     let pace = elapsed.as_secs_f64() / steps as f64;
-    let fit = (STRETCH.as_secs_f64() / pace.max(1e-9)).min(f64::from(u32::MAX));
-    (fit as u32).clamp(1, left.max(1))
+    (STRETCH.as_secs_f64() / pace.max(1e-9)).clamp(1.0, f64::from(left)) as u32
 }

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::text::{self, TextError};
 
 /// Values at places along a line, in ascending order of the coordinate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Profile {
     /// m, strictly ascending.
     pub coordinate: Vec<f64>,

@@ -5,7 +5,12 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::case::CaseError;
+use crate::case::{CaseError, ReferenceError};
+use crate::engine::EngineError;
+use crate::output::OutputError;
+use crate::run::RunError;
+use crate::scene::SceneError;
+use crate::simulation::SimulationError;
 
 /// Each prints as one line after `error: `.
 #[derive(Debug, Error)]
@@ -24,8 +29,20 @@ pub enum CliError {
     Print(#[source] io::Error),
     #[error("cannot listen for Ctrl-C: {0}")]
     Interrupt(#[from] ctrlc::Error),
-    #[error("{0} is not built yet")]
-    NotBuilt(&'static str),
+    #[error("{}: {source}", path.display())]
+    Scene { path: PathBuf, source: SceneError },
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("{0}")]
+    Diverged(String),
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    #[error("{failed} of {rows} expected values missed: {names}")]
+    Missed { failed: usize, rows: usize, names: String },
 }
 
 impl CliError {
@@ -36,8 +53,29 @@ impl CliError {
             | CliError::FolderTaken { .. }
             | CliError::NotFolder { .. }
             | CliError::FolderUnreadable { .. }
-            | CliError::NoName { .. } => 2,
-            CliError::Print(_) | CliError::Interrupt(_) | CliError::NotBuilt(_) => 1,
+            | CliError::NoName { .. }
+            | CliError::Scene { .. }
+            | CliError::Reference(_)
+            | CliError::Engine(EngineError::TooLarge { .. } | EngineError::Adapter(_))
+            | CliError::Simulation(SimulationError::TooFastForForward { .. })
+            | CliError::Output(OutputError::NotEmpty(_) | OutputError::NotAFolder(_)) => 2,
+            CliError::Print(_)
+            | CliError::Interrupt(_)
+            | CliError::Simulation(_)
+            | CliError::Engine(_)
+            | CliError::Output(_)
+            | CliError::Diverged(_)
+            | CliError::Missed { .. } => 1,
+        }
+    }
+}
+
+impl From<RunError> for CliError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Simulation(error) => error.into(),
+            RunError::Output(error) => error.into(),
+            RunError::Reference(error) => error.into(),
         }
     }
 }

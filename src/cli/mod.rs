@@ -3,6 +3,7 @@
 mod adapters;
 mod args;
 mod check;
+mod engine;
 mod error;
 mod folder;
 mod interrupt;

@@ -1,15 +1,67 @@
 //! `run`: runs a case and writes what it gave.
 
+use std::sync::Arc;
+
 use super::args::RunArguments;
+use super::engine::open;
 use super::folder::output_folder;
 use super::interrupt::StopFlag;
 use super::progress::Progress;
-use super::{CliError, load};
+use super::{CliError, load, print};
+use crate::measure::ExpectationResult;
+use crate::output::{RunFolder, StopReason, Summary};
+use crate::run;
+use crate::scene::Scene;
 
 pub(super) fn run(arguments: &RunArguments) -> Result<(), CliError> {
     let case = load(&arguments.case)?;
-    let _folder = output_folder(arguments)?;
-    let progress = Progress::new(case.time.end, arguments.quiet, StopFlag::on_interrupt()?);
+    let path = output_folder(arguments)?;
+    let scene = |source| CliError::Scene { path: arguments.case.case.clone(), source };
+    let scene = Arc::new(Scene::build(&case).map_err(scene)?);
+    let mut engine = open(&scene, arguments)?;
+    let mut progress = Progress::new(case.time.end, arguments.quiet, StopFlag::on_interrupt()?);
+    let folder = RunFolder::create(&path, arguments.force)?;
+    let report = run::run(&arguments.case.case, &scene, engine.as_mut(), &folder, &mut progress)?;
     progress.finish();
-    Err(CliError::NotBuilt("run"))
+    tell(&report.summary, &folder)?;
+    if let Some(trouble) = report.trouble {
+        return Err(CliError::Diverged(trouble));
+    }
+    let missed: Vec<&ExpectationResult> = report.summary.expect.iter().filter(|row| !row.pass).collect();
+    if missed.is_empty() || report.summary.stop == StopReason::Interrupted {
+        return Ok(());
+    }
+    let names = missed.iter().map(|row| row.name.as_str()).collect::<Vec<_>>().join(", ");
+    Err(CliError::Missed { failed: missed.len(), rows: report.summary.expect.len(), names })
+}
+
+fn tell(summary: &Summary, folder: &RunFolder) -> Result<(), CliError> {
+    let Summary { points, steps, time, seconds, .. } = summary;
+    let why = match summary.stop {
+        StopReason::Steady => "steady",
+        StopReason::End => "end of time",
+        StopReason::Interrupted => "interrupted",
+        StopReason::Failed => "failed",
+    };
+    let adapter = summary.adapter.as_ref().map_or(String::new(), |adapter| format!(" on {}", adapter.name));
+    print(format_args!("{}", summary.case.title))?;
+    print(format_args!(
+        "{points} points, {steps} steps to t = {time:.3} s ({why}), {}{adapter} {}, {:.2} s stepping",
+        summary.engine, summary.precision, seconds.stepping,
+    ))?;
+    for row in &summary.expect {
+        let value = row.value.map_or("none".to_owned(), |value| format!("{value:.6}"));
+        let error = row.error.map_or("-".to_owned(), |error| format!("{:.3}%", 100.0 * error));
+        let verdict = if row.pass { "ok" } else { "MISSED" };
+        print(format_args!(
+            "  {:<10} {value:>12}  published {:>12.6}  error {error:>8} of {:.2}% allowed  {verdict}",
+            row.name,
+            row.reference,
+            100.0 * row.tolerance,
+        ))?;
+    }
+    for warning in &summary.warnings {
+        print(format_args!("  warning: {warning}"))?;
+    }
+    print(format_args!("written to {}", folder.path().display()))
 }

@@ -11,7 +11,9 @@ use crate::cpu::operations::pressure::Stop;
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
-use crate::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo};
+use crate::engine::{
+    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo,
+};
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
 use crate::with_weight;
@@ -523,7 +525,8 @@ impl<T: Real> Engine for CpuEngine<T> {
         let points = scene.sizes.points;
         let mut reported = self.fields.take(Buffer::Reported)?;
         let velocity = self.fields.real(Buffer::Projected)?;
-        let mut measurement = measure::speeds(velocity, self.fields.real(Buffer::Volume)?, &mut reported, points, elapsed);
+        let mut measurement =
+            measure::speeds(velocity, self.fields.real(Buffer::Volume)?, &mut reported, points, elapsed);
         if scene.cells().is_some() {
             let mut flux = vec![T::zero(); scene.padded()];
             let position = self.standing(Buffer::Position)?;

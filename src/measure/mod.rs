@@ -5,15 +5,14 @@ mod error;
 mod expect;
 mod fit;
 mod line;
-mod profile;
 mod sampler;
 
+pub use crate::case::Profile;
 pub use cells::CellList;
 pub use error::MeasureError;
 pub use expect::{ExpectationResult, evaluate};
 pub use fit::{Degree, Fit};
 pub use line::{Extreme, LineMeasure};
-pub use profile::Profile;
 pub use sampler::{Sampler, Stencil};
 
 #[cfg(test)]

@@ -32,6 +32,8 @@ pub struct Summary {
     pub stop: StopReason,
     pub seconds: Seconds,
     pub fallbacks: Fallbacks,
+    /// Pressure iterations of all steps.
+    pub iterations: u64,
     pub warnings: Vec<String>,
     /// Memory of the engine's buffers over the number of points.
     pub bytes_per_point: f64,
@@ -71,7 +73,7 @@ pub struct Seconds {
 /// How often the method took a second choice.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fallbacks {
-    /// Pressure solves handed to the direct solver.
+    /// Pressure solves that stalled and were handed to the direct solver.
     pub direct_solves: u64,
     /// Points whose fit needed a wider radius.
     pub widened: u64,
@@ -138,6 +140,7 @@ mod tests {
             adapter: Some(Adapter { name: "a card".into(), backend: "vulkan".into(), ..Adapter::default() }),
             precision: "f32".into(),
             points: 441,
+            iterations: 7,
             steps: 1200,
             time: 0.1 + 0.2,
             stop: StopReason::Steady,

@@ -5,13 +5,7 @@ use crate::cpu::real::Real;
 use crate::engine::Measurement;
 
 /// Kinetic energy `sum V |u|^2 / 2`, largest speed, and largest rate of change since `reported`, which becomes `velocity`.
-pub fn speeds<T: Real>(
-    velocity: &[T],
-    volume: &[T],
-    reported: &mut [T],
-    points: usize,
-    elapsed: f64,
-) -> Measurement {
+pub fn speeds<T: Real>(velocity: &[T], volume: &[T], reported: &mut [T], points: usize, elapsed: f64) -> Measurement {
     let length = volume.len();
     let [kinetic_energy] = blocks::sum_ranges(length, |range| {
         let term = |i: usize| {
@@ -36,9 +30,8 @@ pub fn speeds<T: Real>(
 
 /// Root mean square over the points of `flux / volume`.
 pub fn rms_density<T: Real>(flux: &[T], volume: &[T], points: usize) -> f64 {
-    let [square] = blocks::sum_ranges(points, |range| {
-        [range.map(|i| (flux[i].to_f64() / volume[i].to_f64()).powi(2)).sum()]
-    });
+    let [square] =
+        blocks::sum_ranges(points, |range| [range.map(|i| (flux[i].to_f64() / volume[i].to_f64()).powi(2)).sum()]);
     (square / points as f64).sqrt()
 }
 
