@@ -137,7 +137,7 @@ impl Operation {
         use Buffer::*;
         match self {
             Operation::BuildCells(points) => vec![CellStart(points), CellPoints(points)],
-            Operation::FindNeighbours(points) => vec![Neighbours(points), NeighbourCount(points)],
+            Operation::FindNeighbours(points) => vec![Neighbours(points), NeighbourCount(points), Support(points)],
             Operation::Factorise(points) => vec![Factor(points), Rung(points)],
             Operation::WidenSupport(points) => {
                 vec![Support(points), Neighbours(points), NeighbourCount(points), Factor(points), Rung(points)]

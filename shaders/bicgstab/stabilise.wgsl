@@ -1,0 +1,16 @@
+// BiCGStab, iteration 5 of 11: s = r - alpha v, D^-1 s, and its sum over the points.
+
+#import sums
+
+@compute @workgroup_size(GROUP)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let i = index_of(group, local);
+    var own = real(0.0);
+    if i < PADDED {
+        let s = residual[i] - scalars[ALPHA] * product[i];
+        stabilised[i] = s;
+        own = s / diagonal[i];
+        preconditioned[i] = own;
+    }
+    add_up(group_of(group), local, sums(own, 0.0, 0.0, 0.0));
+}

@@ -1,0 +1,11 @@
+// Forgets the kick of the last step: kick = 0. Units: m/s.
+
+#import points
+
+@compute @workgroup_size(GROUP)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let i = index_of(group, local);
+    if i < PADDED {
+        kick[i] = vector();
+    }
+}

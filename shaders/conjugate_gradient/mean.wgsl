@@ -1,0 +1,13 @@
+// Conjugate gradients, check 2 of 4: the mean of r.
+
+#import control
+#import total
+
+@compute @workgroup_size(REDUCERS)
+fn main(@builtin(local_invocation_index) local: u32) {
+    let live = in_phase(PHASE_CHECKING);
+    let sum = total(local, live);
+    if local == 0u && live {
+        scalars[MEAN] = sum.x / real(POINTS);
+    }
+}

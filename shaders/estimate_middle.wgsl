@@ -1,0 +1,14 @@
+// The velocity in the middle of the kick, estimated with the last one, which is then forgotten.
+//
+// Discrete: u_m = u + kick; kick = 0. Units: m/s.
+
+#import points
+
+@compute @workgroup_size(GROUP)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let i = index_of(group, local);
+    if i < PADDED {
+        projected[i] = velocity[i] + kick[i];
+        kick[i] = vector();
+    }
+}

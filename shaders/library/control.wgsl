@@ -1,0 +1,39 @@
+// The state of a batch of steps: what the host set going, what froze it, and where a pressure solve stands.
+//
+// Every dispatch over points or cells takes its number of workgroups from `dispatches`; zeroed, it does nothing. A solve
+// goes back and forth between two phases, recomputing the residual and iterating, and only the one it is in has
+// workgroups. So a batch may hold any number of iterations, and its results do not depend on that number.
+
+fn running() -> bool {
+    return atomicLoad(&control[HALTED]) == HALTED_NOT;
+}
+
+fn in_phase(phase: u32) -> bool {
+    return running() && atomicLoad(&control[PHASE]) == phase;
+}
+
+fn set_extent(slot: u32, extent: vec2<u32>) {
+    dispatches[3u * slot] = extent.x;
+    dispatches[3u * slot + 1u] = extent.y;
+    dispatches[3u * slot + 2u] = 1u;
+}
+
+fn open_phase(phase: u32) {
+    let all = vec2<u32>(POINTS_EXTENT_X, POINTS_EXTENT_Y);
+    let none = vec2<u32>(0u, 0u);
+    set_extent(EXTENT_CHECK, select(none, all, phase == PHASE_CHECKING));
+    set_extent(EXTENT_ITERATE, select(none, all, phase == PHASE_ITERATING));
+}
+
+fn enter(phase: u32) {
+    atomicStore(&control[PHASE], phase);
+    open_phase(phase);
+}
+
+// Nothing of the batch runs any more; the phase of a solve is kept, for it to be taken up again.
+fn halt(reason: u32) {
+    atomicStore(&control[HALTED], reason);
+    set_extent(EXTENT_POINTS, vec2<u32>(0u, 0u));
+    set_extent(EXTENT_CELLS, vec2<u32>(0u, 0u));
+    open_phase(PHASE_IDLE);
+}

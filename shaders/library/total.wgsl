@@ -1,0 +1,30 @@
+// The second half of a sum over the points: one workgroup adds up the partial sums, in a fixed order.
+
+var<workgroup> lane_totals: array<sums, REDUCERS>;
+var<workgroup> row_totals: array<sums, REDUCER_ROWS>;
+
+// The sums, on invocation 0. Every invocation calls it; `live` false skips the work.
+fn total(local: u32, live: bool) -> sums {
+    var own = sums();
+    let end = select(0u, GROUPS, live);
+    for (var k = local; k < end; k += REDUCERS) {
+        own += partials[k];
+    }
+    lane_totals[local] = own;
+    workgroupBarrier();
+    var sum = sums();
+    if local < REDUCER_ROWS {
+        for (var k = 0u; k < REDUCERS / REDUCER_ROWS; k++) {
+            sum += lane_totals[local * (REDUCERS / REDUCER_ROWS) + k];
+        }
+        row_totals[local] = sum;
+    }
+    workgroupBarrier();
+    sum = sums();
+    if local == 0u {
+        for (var k = 0u; k < REDUCER_ROWS; k++) {
+            sum += row_totals[k];
+        }
+    }
+    return sum;
+}

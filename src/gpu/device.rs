@@ -1,0 +1,111 @@
+//! One opened GPU: its queue, its faults, and waiting for it.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use wgpu::{CommandBuffer, Device, ErrorFilter, Features, Limits, PollType, Queue};
+
+use super::adapter::Candidate;
+use super::prelude::Precision;
+use super::self_test;
+use crate::engine::{AdapterInfo, EngineError};
+
+/// How long one submission may take before the GPU counts as hung.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A GPU, opened.
+pub struct Gpu {
+    pub(super) device: Device,
+    pub(super) queue: Queue,
+    pub(super) limits: Limits,
+    pub precision: Precision,
+    pub info: AdapterInfo,
+    /// Rounds after which the driver silently leaves a loop, where the self-test found such a limit. The engine's own
+    /// loops stay far below it.
+    pub loop_limit: Option<u32>,
+    /// The first fault that the driver reported outside a call of ours.
+    fault: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// Opens an adapter for floats of `precision`.
+    pub fn open(candidate: &Candidate, precision: Precision) -> Result<Self, EngineError> {
+        if precision == Precision::Double && !candidate.double_precision {
+            let name = &candidate.info.name;
+            return Err(EngineError::Adapter(format!("{name} has no f64 in shaders; allowed: f32, or the CPU engine")));
+        }
+        let adapter = &candidate.adapter;
+        let offered = adapter.limits();
+        let limits = Limits {
+            max_storage_buffers_per_shader_stage: offered.max_storage_buffers_per_shader_stage,
+            max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+            max_buffer_size: offered.max_buffer_size,
+            ..Limits::downlevel_defaults()
+        };
+        let features = match precision {
+            Precision::Single => Features::empty(),
+            Precision::Double => Features::SHADER_F64,
+        };
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("stillpoint"),
+            required_features: features,
+            required_limits: limits.clone(),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| EngineError::Adapter(format!("{}: {error}", candidate.info.name)))?;
+        let fault = Arc::new(Mutex::new(None));
+        let noted = Arc::clone(&fault);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&noted, error.to_string())));
+        let noted = Arc::clone(&fault);
+        device.set_device_lost_callback(move |reason, message| {
+            // Dropping the device ends here too.
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                note(&noted, format!("the device was lost: {message}"));
+            }
+        });
+        let mut gpu = Self { device, queue, limits, precision, info: candidate.info.clone(), loop_limit: None, fault };
+        if gpu.info.software {
+            gpu.loop_limit = self_test::loop_limit(&gpu)?;
+        }
+        Ok(gpu)
+    }
+
+    /// Runs `body` and turns what the device objects to in it into an error.
+    pub(super) fn checked<T>(&self, what: &str, body: impl FnOnce(&Device) -> T) -> Result<T, EngineError> {
+        let scopes = [ErrorFilter::OutOfMemory, ErrorFilter::Internal, ErrorFilter::Validation]
+            .map(|filter| self.device.push_error_scope(filter));
+        let result = body(&self.device);
+        // Scopes nest: the last one pushed is the first one popped.
+        let errors: Vec<_> = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
+        match errors.into_iter().next() {
+            Some(error) => Err(EngineError::Device(format!("{what}: {error}"))),
+            None => self.healthy().map(|()| result),
+        }
+    }
+
+    /// Submits and waits until it is done.
+    pub(super) fn run(&self, commands: CommandBuffer) -> Result<(), EngineError> {
+        let index = self.checked("submit", |_| self.queue.submit([commands]))?;
+        self.wait(index)
+    }
+
+    pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), EngineError> {
+        let poll = PollType::Wait { submission_index: Some(index), timeout: Some(PATIENCE) };
+        self.device.poll(poll).map_err(|error| {
+            EngineError::Device(format!("no answer within {} s: {error}", PATIENCE.as_secs()))
+        })?;
+        self.healthy()
+    }
+
+    fn healthy(&self) -> Result<(), EngineError> {
+        match &*self.fault.lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(fault) => Err(EngineError::Device(fault.clone())),
+            None => Ok(()),
+        }
+    }
+}
+
+fn note(fault: &Mutex<Option<String>>, message: String) {
+    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+}

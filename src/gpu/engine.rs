@@ -1,0 +1,183 @@
+//! The GPU engine's side of the trait that both engines implement.
+
+use std::sync::Arc;
+
+use super::batch::{Batch, Cursor, Pace, Report};
+use super::bindings::Own;
+use super::device::Gpu;
+use super::layout::{Halted, NO_POINT, Scalar, Time, Word};
+use super::memory::Memory;
+use super::program::Program;
+use crate::direct::DirectSolver;
+use crate::engine::{
+    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo,
+};
+use crate::scene::Scene;
+use crate::step::{Buffer, Operation};
+
+/// The plan's operations on one GPU.
+pub struct GpuEngine {
+    gpu: Gpu,
+    scene: Arc<Scene>,
+    memory: Memory,
+    program: Program,
+    /// The operations of one step.
+    step: Vec<Operation>,
+    pace: Pace,
+    direct: Option<DirectSolver>,
+    solve: SolveInfo,
+    fallbacks: u32,
+}
+
+impl GpuEngine {
+    /// Allocates the plan's arrays, compiles its operations, and fills in what the scene begins with. The setup operations
+    /// are yet to run.
+    pub fn new(scene: Arc<Scene>, gpu: Gpu) -> Result<Self, EngineError> {
+        let memory = Memory::new(&gpu, &scene)?;
+        for (buffer, data) in scene.initial() {
+            memory.write(&gpu, buffer, &data)?;
+        }
+        let program = Program::new(&gpu, &scene, &memory)?;
+        let step = scene.plan.drift.iter().chain(&scene.plan.kick).copied().collect();
+        let (pace, solve) = (Pace::default(), SolveInfo::default());
+        Ok(Self { gpu, scene, memory, program, step, pace, direct: None, solve, fallbacks: 0 })
+    }
+
+    /// The GPU that computes.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    fn set_clock(&self, clock: &Clock) -> Result<(), EngineError> {
+        let constants = &self.scene.constants;
+        let density_per_kick = constants.density / clock.kick;
+        let values: Vec<f64> = Time::ALL
+            .iter()
+            .map(|time| match time {
+                Time::Dt => clock.dt,
+                Time::SecondKick => clock.second_kick,
+                Time::Source => -density_per_kick,
+                Time::DensityPerKick => density_per_kick,
+                Time::Correction => clock.kick / constants.density,
+                Time::Diffusion => clock.kick * constants.viscosity,
+                Time::Stop => constants.tolerance * density_per_kick / clock.dt,
+            })
+            .collect();
+        self.memory.upload(&self.gpu, self.memory.own(Own::Clock), &values)
+    }
+
+    /// Runs `step` over and over. Returns early at a field that is not finite.
+    fn run(&mut self, step: &[Operation], steps: u32, counted: bool) -> Result<Advance, EngineError> {
+        let mut cursor = Cursor::default();
+        let mut pace = self.pace;
+        let mut done = Advance::default();
+        let before = self.fallbacks;
+        self.batch(step, counted).reset()?;
+        loop {
+            let rest = steps - done.steps;
+            let report = self.batch(step, counted).send(&mut cursor, rest, &mut pace)?;
+            done.steps = report.word(Word::Steps);
+            done.iterations = u64::from(report.word(Word::TotalIterations));
+            self.solve = report.solve_info();
+            match report.halted() {
+                Halted::ForDirectSolve => {
+                    done.trouble = self.solve_directly()?;
+                    let handed_over = !step.contains(&Operation::DirectSolve);
+                    self.fallbacks += u32::from(handed_over);
+                }
+                Halted::ByNonFinite => done.trouble = trouble(&report),
+                Halted::Not | Halted::InSolve | Halted::ByOverflow => {}
+            }
+            let over = if counted { done.steps >= steps } else { cursor.operation >= step.len() || at_rest(&cursor, &report) };
+            if over || done.trouble.is_some() {
+                break;
+            }
+        }
+        if counted {
+            self.pace = pace;
+        }
+        done.fallbacks = self.fallbacks - before;
+        Ok(done)
+    }
+
+    fn batch<'a>(&'a self, step: &'a [Operation], counted: bool) -> Batch<'a> {
+        Batch { gpu: &self.gpu, scene: &self.scene, memory: &self.memory, program: &self.program, step, counted }
+    }
+
+    /// Solves the pressure equation on the host; a source that is not finite is trouble instead.
+    fn solve_directly(&mut self) -> Result<Option<NonFinite>, EngineError> {
+        let Data::Real(source) = self.read(Buffer::Source)? else { return Err(EngineError::Absent(Buffer::Source)) };
+        if let Some(point) = source.iter().position(|value| !value.is_finite()) {
+            return Ok(Some(NonFinite { buffer: Buffer::Projected, point }));
+        }
+        let direct = match self.direct.take() {
+            Some(direct) => direct,
+            None => DirectSolver::new(&self.scene, &mut |buffer| self.memory.read(&self.gpu, buffer))?,
+        };
+        let pressure = direct.solve(&source)?;
+        self.direct = Some(direct);
+        self.memory.write(&self.gpu, Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
+        self.solve.outcome = Outcome::Converged;
+        Ok(None)
+    }
+}
+
+/// Nothing is left of a single operation.
+fn at_rest(cursor: &Cursor, report: &Report) -> bool {
+    cursor.operation == 0 && report.halted() == Halted::Not
+}
+
+fn trouble(report: &Report) -> Option<NonFinite> {
+    [(Word::BadVelocity, Buffer::Projected), (Word::BadPressure, Buffer::Pressure)]
+        .into_iter()
+        .map(|(word, buffer)| (report.word(word), buffer))
+        .find(|&(point, _)| point != NO_POINT)
+        .map(|(point, buffer)| NonFinite { buffer, point: point as usize })
+}
+
+impl Engine for GpuEngine {
+    fn info(&self) -> EngineInfo {
+        EngineInfo { engine: "gpu", adapter: Some(self.gpu.info.clone()), precision: self.gpu.precision.name() }
+    }
+
+    fn write(&mut self, buffer: Buffer, data: &Data) -> Result<(), EngineError> {
+        self.memory.write(&self.gpu, buffer, data)
+    }
+
+    fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError> {
+        self.memory.read(&self.gpu, buffer)
+    }
+
+    fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        self.set_clock(clock)?;
+        self.run(&[operation], 1, false).map(|_| ())
+    }
+
+    fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
+        if steps == 0 {
+            return Ok(Advance::default());
+        }
+        self.set_clock(clock)?;
+        let step = std::mem::take(&mut self.step);
+        let result = self.run(&step, steps, true);
+        self.step = step;
+        result
+    }
+
+    fn solve_info(&self) -> SolveInfo {
+        self.solve
+    }
+
+    fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {
+        let batch = self.batch(&[], false);
+        batch.reset()?;
+        let report = batch.measure()?;
+        let points = self.scene.sizes.points as f64;
+        Ok(Measurement {
+            kinetic_energy: report.scalar(Scalar::Energy),
+            max_speed: report.scalar(Scalar::SpeedSquare).sqrt(),
+            divergence: (report.scalar(Scalar::DivergenceSquare) / points).sqrt(),
+            change: report.scalar(Scalar::ChangeSquare).sqrt() / elapsed,
+        })
+    }
+}

@@ -1,0 +1,121 @@
+//! Named places in the small arrays that the host and the kernels share. WGSL gets the names from here.
+
+/// A list of names whose order gives their numbers, in Rust and, as constants, in WGSL.
+macro_rules! numbered {
+    ($(#[$about:meta])* $name:ident { $($(#[$each:meta])* $variant:ident = $wgsl:literal,)* }) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(super) enum $name { $($(#[$each])* $variant),* }
+
+        impl $name {
+            pub(super) const NAMES: &[&str] = &[$($wgsl),*];
+            pub(super) const ALL: &[Self] = &[$($name::$variant),*];
+        }
+    };
+}
+
+numbered! {
+    /// Words of `control`.
+    Word {
+        /// Why nothing runs any more.
+        Halted = "HALTED",
+        /// Most iterations of a solve, and most fresh starts, in this batch.
+        MostIterations = "MOST_ITERATIONS",
+        MostStarts = "MOST_STARTS",
+        /// Steps done, and iterations of finished solves, since the run began.
+        Steps = "STEPS",
+        TotalIterations = "TOTAL_ITERATIONS",
+        /// Longest neighbour list met that did not fit.
+        MostNeighbours = "MOST_NEIGHBOURS",
+        /// First point whose field is not a number.
+        BadVelocity = "BAD_VELOCITY",
+        BadPressure = "BAD_PRESSURE",
+        /// The solve under way.
+        Phase = "PHASE",
+        Outcome = "OUTCOME",
+        Iterations = "ITERATIONS",
+        Starts = "STARTS",
+        SinceBest = "SINCE_BEST",
+    }
+}
+
+numbered! {
+    /// Values of [`Word::Halted`].
+    Halted {
+        Not = "HALTED_NOT",
+        InSolve = "HALTED_IN_SOLVE",
+        ForDirectSolve = "HALTED_FOR_DIRECT_SOLVE",
+        ByNonFinite = "HALTED_BY_NON_FINITE",
+        ByOverflow = "HALTED_BY_OVERFLOW",
+    }
+}
+
+numbered! {
+    /// Values of [`Word::Phase`].
+    Phase {
+        Idle = "PHASE_IDLE",
+        Checking = "PHASE_CHECKING",
+        Iterating = "PHASE_ITERATING",
+    }
+}
+
+numbered! {
+    /// Values of [`Word::Outcome`].
+    Ended {
+        Converged = "OUTCOME_CONVERGED",
+        Stagnated = "OUTCOME_STAGNATED",
+        BrokeDown = "OUTCOME_BROKE_DOWN",
+    }
+}
+
+numbered! {
+    /// Entries of `scalars`.
+    Scalar {
+        FirstResidual = "FIRST_RESIDUAL",
+        LastResidual = "LAST_RESIDUAL",
+        Energy = "ENERGY",
+        DivergenceSquare = "DIVERGENCE_SQUARE",
+        SpeedSquare = "SPEED_SQUARE",
+        ChangeSquare = "CHANGE_SQUARE",
+        Best = "BEST",
+        Mean = "MEAN",
+        ResidualTimesPreconditioned = "RZ",
+        Alpha = "ALPHA",
+        Beta = "BETA",
+        Rho = "RHO",
+        Omega = "OMEGA",
+        Constant = "CONSTANT",
+    }
+}
+
+numbered! {
+    /// Entries of `clock`.
+    Time {
+        Dt = "CLOCK_DT",
+        SecondKick = "CLOCK_SECOND_KICK",
+        /// `-rho / kick`: of the conservative source.
+        Source = "CLOCK_SOURCE",
+        DensityPerKick = "CLOCK_DENSITY_PER_KICK",
+        /// `kick / rho`: of the pressure gradient.
+        Correction = "CLOCK_CORRECTION",
+        /// `kick nu`.
+        Diffusion = "CLOCK_DIFFUSION",
+        /// Residual at which a solve is done.
+        Stop = "CLOCK_STOP",
+    }
+}
+
+numbered! {
+    /// Rows of the table of workgroup counts, and the dispatches that take theirs from them.
+    Extent {
+        Points = "EXTENT_POINTS",
+        Cells = "EXTENT_CELLS",
+        /// Points, while a solve recomputes its residual.
+        Check = "EXTENT_CHECK",
+        /// Points, while a solve iterates.
+        Iterate = "EXTENT_ITERATE",
+    }
+}
+
+/// No point: of [`Word::BadVelocity`] and [`Word::BadPressure`].
+pub(super) const NO_POINT: u32 = u32::MAX;

@@ -1,0 +1,143 @@
+//! What every kernel's source begins with: the float type and the constants, written from those that Rust uses.
+
+use std::fmt::Write;
+
+use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
+use crate::cpu::operations::moments::{COEFFICIENTS, FACTOR, PIVOT_THRESHOLD};
+use crate::cpu::operations::pressure::Stop;
+use crate::scene::Scene;
+use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
+
+/// Invocations of a workgroup over points or cells, and those that add up its sum in the middle.
+pub(super) const GROUP: u32 = 64;
+const GROUP_ROWS: u32 = 8;
+/// Invocations of the one workgroup that adds up the partial sums, and those in the middle.
+pub(super) const REDUCERS: u32 = 256;
+const REDUCER_ROWS: u32 = 16;
+/// Most workgroups along one dimension of a dispatch.
+const MOST_GROUPS: u32 = 65_535;
+
+/// The float type of the fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// f32: every adapter.
+    Single,
+    /// f64: adapters with 64-bit floats in shaders.
+    Double,
+}
+
+impl Precision {
+    pub fn bytes(self) -> usize {
+        match self {
+            Precision::Single => 4,
+            Precision::Double => 8,
+        }
+    }
+
+    /// `f32` or `f64`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::Single => "f32",
+            Precision::Double => "f64",
+        }
+    }
+
+    fn epsilon(self) -> f64 {
+        match self {
+            Precision::Single => f64::from(f32::EPSILON),
+            Precision::Double => f64::EPSILON,
+        }
+    }
+}
+
+/// Workgroups over points and over cells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    pub points: u32,
+    pub cells: u32,
+}
+
+impl Shape {
+    pub fn new(scene: &Scene) -> Self {
+        let groups = |count: usize| count.div_ceil(GROUP as usize) as u32;
+        Self { points: groups(scene.padded()), cells: groups(scene.sizes.cells + 1) }
+    }
+
+    /// The same along x and y.
+    pub fn extent(groups: u32) -> [u32; 2] {
+        [groups.min(MOST_GROUPS), groups.div_ceil(MOST_GROUPS)]
+    }
+}
+
+/// Types and constants for the kernels of `scene`.
+pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
+    let (sizes, constants) = (&scene.sizes, &scene.constants);
+    let shape = Shape::new(scene);
+    let mut text = format!(
+        "alias real = {};\nalias vector = vec2<real>;\nalias sums = vec4<real>;\n",
+        precision.name()
+    );
+    let extent = Shape::extent(shape.points);
+    let forced = if scene.plan.forces_reach_walls() { sizes.points } else { sizes.interior };
+    let whole: &[(&str, usize)] = &[
+        ("BLOCK", BLOCK),
+        ("POINTS", sizes.points),
+        ("PADDED", scene.padded()),
+        ("INTERIOR", sizes.interior),
+        ("FORCED", forced),
+        ("CAPACITY", sizes.capacity),
+        ("FACE_CAPACITY", sizes.face_capacity),
+        ("CELLS", sizes.cells),
+        ("CELLS_X", constants.grid.cells[0] as usize),
+        ("CELLS_Y", constants.grid.cells[1] as usize),
+        ("TILES", sizes.cells.div_ceil(GROUP as usize)),
+        ("COEFFICIENTS", COEFFICIENTS),
+        ("FACTOR", FACTOR),
+        ("WIDER_STEPS", Rung::WIDER.len()),
+        ("RUNG_LINEAR", Rung::LINEAR as usize),
+        ("RUNG_NEAREST", Rung::NEAREST as usize),
+        ("RUNG_FAILED", Rung::FAILED as usize),
+        ("MAX_ITERATIONS", constants.max_iterations as usize),
+        ("STOP_PATIENCE", Stop::PATIENCE as usize),
+        ("STOP_RESTARTS", Stop::RESTARTS as usize),
+        ("GROUP", GROUP as usize),
+        ("GROUP_ROWS", GROUP_ROWS as usize),
+        ("GROUPS", shape.points as usize),
+        ("REDUCERS", REDUCERS as usize),
+        ("REDUCER_ROWS", REDUCER_ROWS as usize),
+        ("MOST_GROUPS", MOST_GROUPS as usize),
+        ("POINTS_EXTENT_X", extent[0] as usize),
+        ("POINTS_EXTENT_Y", extent[1] as usize),
+        ("NO_POINT", NO_POINT as usize),
+    ];
+    let real: &[(&str, f64)] = &[
+        ("CELLS_PER_METRE", constants.grid.per_metre),
+        ("RADIUS", constants.radius),
+        ("WIDTH", constants.size.x),
+        ("HEIGHT", constants.size.y),
+        ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
+        ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
+        ("STOP_FLOOR", Stop::FLOOR),
+        ("EPSILON", precision.epsilon()),
+        ("SHIFT_PER_POINT", constants.shift / sizes.points as f64),
+    ];
+    for (name, value) in whole {
+        line(&mut text, format_args!("const {name}: u32 = {value}u;"));
+    }
+    for (name, value) in real {
+        line(&mut text, format_args!("const {name}: real = {value:e};"));
+    }
+    let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");
+    line(&mut text, format_args!("const WIDER = array<real, WIDER_STEPS>({wider});"));
+    for names in [Word::NAMES, Halted::NAMES, Phase::NAMES, Ended::NAMES, Scalar::NAMES, Time::NAMES, Extent::NAMES] {
+        for (number, name) in names.iter().enumerate() {
+            line(&mut text, format_args!("const {name}: u32 = {number}u;"));
+        }
+    }
+    text
+}
+
+fn line(text: &mut String, content: std::fmt::Arguments) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{content}");
+}

@@ -1,0 +1,190 @@
+//! The WGSL files: which stages an operation has, and what `#import` brings in.
+
+use super::layout::Extent;
+use crate::case::{PressureForm, Weight};
+use crate::engine::EngineError;
+use crate::scene::Scene;
+use crate::step::Operation;
+
+/// One kernel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stage {
+    /// Path below `shaders/`, without the ending.
+    pub name: &'static str,
+    pub source: &'static str,
+    /// Where its number of workgroups stands; `None` for a single workgroup.
+    pub extent: Option<Extent>,
+}
+
+/// What runs for one operation.
+#[derive(Debug, Clone)]
+pub(super) enum Stages {
+    /// Once, in order.
+    Once(Vec<Stage>),
+    /// A pressure solve: `check` and `iterate` until a residual is low enough.
+    Solve { check: Vec<Stage>, iterate: Vec<Stage> },
+}
+
+impl Stages {
+    pub fn all(&self) -> impl Iterator<Item = Stage> + '_ {
+        let (first, second): (&[Stage], &[Stage]) = match self {
+            Stages::Once(stages) => (stages, &[]),
+            Stages::Solve { check, iterate } => (check, iterate),
+        };
+        first.iter().chain(second).copied()
+    }
+}
+
+macro_rules! stage {
+    ($name:literal) => {
+        Stage { name: $name, source: include_str!(concat!("../../shaders/", $name, ".wgsl")), extent: None }
+    };
+    ($name:literal, $extent:ident) => {
+        Stage { extent: Some(Extent::$extent), ..stage!($name) }
+    };
+}
+
+pub(super) const BEGIN_SOLVE: Stage = stage!("step/begin_solve");
+pub(super) const END_SOLVE: Stage = stage!("step/end_solve");
+pub(super) const WATCH_VELOCITY: Stage = stage!("step/watch_velocity", Points);
+pub(super) const WATCH_PRESSURE: Stage = stage!("step/watch_pressure", Points);
+pub(super) const END_STEP: Stage = stage!("step/end_step");
+pub(super) const MEASURE: [Stage; 2] = [stage!("measure/partial", Points), stage!("measure/total")];
+
+/// The kernels of an operation.
+pub(super) fn stages(operation: Operation) -> Stages {
+    let once = |stage: Stage| Stages::Once(vec![stage]);
+    match operation {
+        Operation::BuildCells(_) => Stages::Once(vec![
+            stage!("build_cells/clear", Cells),
+            stage!("build_cells/count", Points),
+            stage!("build_cells/sum_tiles", Cells),
+            stage!("build_cells/scan_tiles"),
+            stage!("build_cells/starts", Cells),
+            stage!("build_cells/scatter", Points),
+            stage!("build_cells/sort", Cells),
+        ]),
+        Operation::FindNeighbours(_) => once(stage!("find_neighbours", Points)),
+        Operation::Factorise(_) => once(stage!("factorise", Points)),
+        Operation::WidenSupport(_) => once(stage!("widen_support", Points)),
+        Operation::AssembleCollocated => once(stage!("assemble_collocated", Points)),
+        Operation::FitVelocity(_) => once(stage!("fit_velocity", Points)),
+        Operation::RemapDeparture => once(stage!("remap_departure", Points)),
+        Operation::MovePoints => once(stage!("move_points", Points)),
+        Operation::RemapForward => once(stage!("remap_forward", Points)),
+        Operation::KeepVelocity => once(stage!("keep_velocity", Points)),
+        Operation::ClearKick => once(stage!("clear_kick", Points)),
+        Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
+        Operation::Viscosity => once(stage!("viscosity", Points)),
+        Operation::Predict => once(stage!("predict", Points)),
+        Operation::Divergence => once(stage!("divergence", Points)),
+        Operation::CollocatedSource => once(stage!("collocated_source", Points)),
+        Operation::ConjugateGradient => Stages::Solve {
+            check: vec![
+                stage!("conjugate_gradient/residual", Check),
+                stage!("conjugate_gradient/mean"),
+                stage!("conjugate_gradient/start", Check),
+                stage!("conjugate_gradient/judge"),
+            ],
+            iterate: vec![
+                stage!("conjugate_gradient/product", Iterate),
+                stage!("conjugate_gradient/alpha"),
+                stage!("conjugate_gradient/update", Iterate),
+                stage!("conjugate_gradient/beta"),
+                stage!("conjugate_gradient/direction", Iterate),
+            ],
+        },
+        Operation::Bicgstab => Stages::Solve {
+            check: vec![
+                stage!("bicgstab/pressure_sum", Check),
+                stage!("bicgstab/check_shift"),
+                stage!("bicgstab/residual", Check),
+                stage!("bicgstab/judge"),
+            ],
+            iterate: vec![
+                stage!("bicgstab/precondition_direction", Iterate),
+                stage!("bicgstab/shift"),
+                stage!("bicgstab/product", Iterate),
+                stage!("bicgstab/alpha"),
+                stage!("bicgstab/stabilise", Iterate),
+                stage!("bicgstab/shift"),
+                stage!("bicgstab/stabilised_product", Iterate),
+                stage!("bicgstab/omega"),
+                stage!("bicgstab/update", Iterate),
+                stage!("bicgstab/beta"),
+                stage!("bicgstab/direction", Iterate),
+            ],
+        },
+        Operation::DirectSolve => once(stage!("direct_solve")),
+        Operation::CorrectByFit => once(stage!("correct_by_fit", Points)),
+        Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
+        Operation::HoldWalls => once(stage!("hold_walls", Points)),
+        Operation::Reflect => once(stage!("reflect", Points)),
+    }
+}
+
+/// The text behind `#import name`; a choice of the case picks among files of one meaning.
+fn library(name: &str, scene: &Scene) -> Option<&'static str> {
+    macro_rules! text {
+        ($name:literal) => {
+            include_str!(concat!("../../shaders/library/", $name, ".wgsl"))
+        };
+    }
+    let conservative = scene.plan.form == Some(PressureForm::Conservative);
+    Some(match name {
+        "points" => text!("points"),
+        "cells" => text!("cells"),
+        "search" => text!("search"),
+        "normal_matrix" => text!("normal_matrix"),
+        "normal_equations" => text!("normal_equations"),
+        "fit" => text!("fit"),
+        "evaluate" => text!("evaluate"),
+        "sums" => text!("sums"),
+        "total" => text!("total"),
+        "finite" => text!("finite"),
+        "control" => text!("control"),
+        "monitor" => text!("monitor"),
+        "weight" => match scene.constants.weight {
+            Weight::None => text!("weight/none"),
+            Weight::Quadratic => text!("weight/quadratic"),
+        },
+        "matrix" if conservative => text!("matrix/conservative"),
+        "matrix" => text!("matrix/collocated"),
+        "density" if conservative => text!("density/conservative"),
+        "density" => text!("density/collocated"),
+        "divergence_of" if conservative => text!("divergence/conservative"),
+        "divergence_of" => text!("divergence/fitted"),
+        _ => return None,
+    })
+}
+
+/// The stage's text with its imports in place, each once.
+pub(super) fn expand(stage: &Stage, scene: &Scene) -> Result<String, EngineError> {
+    let mut text = String::new();
+    let mut seen = Vec::new();
+    append(stage.source, scene, &mut seen, &mut text)
+        .map_err(|name| EngineError::Device(format!("{}.wgsl: no library file is called {name:?}", stage.name)))?;
+    Ok(text)
+}
+
+fn append(
+    source: &'static str,
+    scene: &Scene,
+    seen: &mut Vec<&'static str>,
+    text: &mut String,
+) -> Result<(), &'static str> {
+    for line in source.lines() {
+        match line.strip_prefix("#import ") {
+            Some(name) if seen.contains(&name) => {}
+            Some(name) => {
+                seen.push(name);
+                append(library(name, scene).ok_or(name)?, scene, seen, text)?;
+            }
+            None => {
+                text.push_str(line);
+                text.push('\n');
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,75 @@
+//! The kernels: their sources, and what they compute.
+
+mod runs;
+mod sources;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Gpu, GpuEngine, Precision, adapter};
+use crate::case::Case;
+use crate::engine::{Engine, EngineError};
+use crate::scene::Scene;
+
+/// A small cavity; together the changes below use every operation.
+const CAVITY: &str = r#"
+title = "a cavity"
+[domain]
+width = 1.0
+height = 1.0
+[cloud]
+arrangement = "jittered"
+spacing = 0.0625
+[fluid]
+density = 2.0
+[boundaries]
+top.velocity = [1.0, 0.0]
+[effects.viscosity]
+kinematic = 0.01
+[effects.pressure]
+[effects.advection]
+[time]
+end = 1.0
+"#;
+
+/// What the scenes of the tests change in it.
+const CHANGES: [&[&str]; 5] = [
+    &[],
+    &["effects.pressure.gradient=\"adjoint\"", "effects.pressure.solver=\"bicgstab\"", "method.weight=\"none\""],
+    &["effects.pressure.form=\"collocated\"", "time.splitting=\"projection\"", "effects.advection.remap=\"forward\""],
+    &["effects.pressure.solver=\"direct\""],
+    &["effects.pressure.tolerance=1e-4", "cloud.arrangement=\"random\"", "time.splitting=\"projection\""],
+];
+
+fn scene_of(text: &str, changes: &[&str]) -> Scene {
+    let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
+    let case = Case::from_text(text, Path::new("cavity.toml"), &changes).expect("a case");
+    Scene::build(&case).expect("a scene")
+}
+
+fn scene(changes: &[&str]) -> Scene {
+    scene_of(CAVITY, changes)
+}
+
+fn still_scene() -> Scene {
+    scene_of(&CAVITY.replace("[effects.advection]\n", ""), &[])
+}
+
+/// An engine, set up; `None`, said aloud, where there is no adapter.
+fn engine(scene: Scene, precision: Precision) -> Option<GpuEngine> {
+    let candidate = match adapter::choose(None) {
+        Ok(candidate) => candidate,
+        Err(EngineError::Adapter(reason)) => {
+            eprintln!("not tested: {reason}");
+            return None;
+        }
+        Err(error) => panic!("{error}"),
+    };
+    let gpu = Gpu::open(&candidate, precision).expect("the adapter opens");
+    let scene = Arc::new(scene);
+    let mut engine = GpuEngine::new(Arc::clone(&scene), gpu).expect("the kernels compile");
+    for &operation in &scene.plan.setup {
+        engine.apply(operation, &scene.clock(1.0)).expect("setup");
+    }
+    Some(engine)
+}

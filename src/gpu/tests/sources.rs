@@ -1,0 +1,136 @@
+//! Every kernel of every operation parses and validates, in both precisions.
+
+use std::collections::BTreeSet;
+
+use wgpu::naga::front::wgsl;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+
+use super::{CHANGES, Precision, scene, still_scene};
+use crate::gpu::bindings::arrays_of;
+use crate::gpu::launch::assemble;
+use crate::gpu::prelude::prelude;
+use crate::gpu::program::{end_step_stages, measured_arrays};
+use crate::gpu::sources::{self, Stages};
+use crate::scene::Scene;
+use crate::step::{Operation, Points};
+
+/// Functions whose f64 versions pass validation and return garbage on some drivers.
+const NOT_IN_F64: [&str; 12] =
+    ["exp", "exp2", "log", "log2", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow"];
+
+fn scenes() -> Vec<Scene> {
+    CHANGES.iter().map(|changes| scene(changes)).chain([still_scene()]).collect()
+}
+
+/// Every kernel of a scene, by name, as the driver gets it.
+fn kernels(scene: &Scene, precision: Precision) -> Vec<(&'static str, String)> {
+    let prelude = prelude(scene, precision);
+    let mut found = Vec::new();
+    let mut add = |stage: &sources::Stage, arrays: &_| {
+        let (text, _) = assemble(stage, scene, &prelude, arrays).expect(stage.name);
+        found.push((stage.name, text));
+    };
+    for operation in scene.plan.operations() {
+        let arrays = arrays_of(operation, scene);
+        let stages = sources::stages(operation);
+        stages.all().for_each(|stage| add(&stage, &arrays));
+        if matches!(stages, Stages::Solve { .. }) {
+            [sources::BEGIN_SOLVE, sources::END_SOLVE].iter().for_each(|stage| add(stage, &arrays));
+        }
+    }
+    for (stage, arrays) in end_step_stages(scene) {
+        add(&stage, &arrays);
+    }
+    sources::MEASURE.iter().for_each(|stage| add(stage, &measured_arrays(scene)));
+    found
+}
+
+#[test]
+fn every_kernel_validates_in_both_precisions() {
+    for scene in scenes() {
+        for precision in [Precision::Single, Precision::Double] {
+            for (name, text) in kernels(&scene, precision) {
+                let module = wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&text)));
+                let mut validator = Validator::new(ValidationFlags::all(), Capabilities::FLOAT64);
+                validator.validate(&module).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&text)));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scenes_of_the_tests_use_every_operation() {
+    let used: BTreeSet<Operation> = scenes().iter().flat_map(|scene| scene.plan.operations().collect::<Vec<_>>()).collect();
+    let both = |operation: fn(Points) -> Operation| [operation(Points::Standing), operation(Points::Moved)];
+    let mut all: BTreeSet<Operation> = [
+        Operation::AssembleCollocated,
+        Operation::RemapDeparture,
+        Operation::MovePoints,
+        Operation::RemapForward,
+        Operation::KeepVelocity,
+        Operation::ClearKick,
+        Operation::EstimateMiddle,
+        Operation::Viscosity,
+        Operation::Predict,
+        Operation::Divergence,
+        Operation::CollocatedSource,
+        Operation::ConjugateGradient,
+        Operation::Bicgstab,
+        Operation::DirectSolve,
+        Operation::CorrectByFit,
+        Operation::CorrectByAdjoint,
+        Operation::HoldWalls,
+        Operation::Reflect,
+    ]
+    .into();
+    for operation in [
+        Operation::BuildCells,
+        Operation::FindNeighbours,
+        Operation::Factorise,
+        Operation::WidenSupport,
+        Operation::FitVelocity,
+    ] {
+        all.extend(both(operation));
+    }
+    assert_eq!(used, all);
+}
+
+#[test]
+fn the_kernels_of_an_operation_carry_its_name() {
+    for scene in scenes() {
+        for operation in scene.plan.operations() {
+            for stage in sources::stages(operation).all() {
+                let folder = stage.name.split('/').next();
+                assert_eq!(folder, Some(operation.name()), "{}", stage.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_an_operation_writes_is_written_by_its_kernels() {
+    for scene in scenes() {
+        for operation in scene.plan.operations().filter(|&operation| operation != Operation::DirectSolve) {
+            let arrays = arrays_of(operation, &scene);
+            let text: String =
+                sources::stages(operation).all().map(|stage| sources::expand(&stage, &scene).expect(stage.name)).collect();
+            for (_, name) in &arrays[1] {
+                assert!(text.contains(&format!("{name}[")), "{operation:?} never touches {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn no_kernel_calls_a_function_that_lacks_f64() {
+    for scene in scenes() {
+        for (name, text) in kernels(&scene, Precision::Double) {
+            for function in NOT_IN_F64 {
+                let calls = text.match_indices(&format!("{function}(")).any(|(at, _)| {
+                    !text[..at].ends_with(|before: char| before.is_alphanumeric() || before == '_')
+                });
+                assert!(!calls, "{name} calls {function}");
+            }
+        }
+    }
+}
