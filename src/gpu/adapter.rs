@@ -4,8 +4,7 @@ use wgpu::{Adapter, DeviceType, DownlevelFlags, Features};
 
 use crate::engine::{AdapterInfo, EngineError};
 
-const NONE_FOUND: &str =
-    "no GPU adapter found; install your GPU's Vulkan driver, or for a software one on Debian: apt-get install mesa-vulkan-drivers libvulkan1";
+const NONE_FOUND: &str = "no GPU adapter found; install your GPU's Vulkan driver, or for a software one on Debian: apt-get install mesa-vulkan-drivers libvulkan1";
 
 /// An adapter that a run could take.
 #[derive(Debug, Clone)]

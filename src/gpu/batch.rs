@@ -136,7 +136,7 @@ impl Batch<'_> {
                 let begin = if step == 0 { *cursor } else { Cursor::default() };
                 for (k, &operation) in self.step.iter().enumerate().skip(begin.operation) {
                     let resumed = begin.resumed && k == begin.operation;
-                    count += self.program.encode(operation, resumed, pace.budget, &mut pass, dispatches).unwrap_or(0);
+                    count += self.program.encode(operation, resumed, pace.budget, &mut pass, dispatches);
                 }
                 if self.counted {
                     self.program.encode_end_step(&mut pass, dispatches);

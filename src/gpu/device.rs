@@ -92,9 +92,9 @@ impl Gpu {
 
     pub(super) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), EngineError> {
         let poll = PollType::Wait { submission_index: Some(index), timeout: Some(PATIENCE) };
-        self.device.poll(poll).map_err(|error| {
-            EngineError::Device(format!("no answer within {} s: {error}", PATIENCE.as_secs()))
-        })?;
+        self.device
+            .poll(poll)
+            .map_err(|error| EngineError::Device(format!("no answer within {} s: {error}", PATIENCE.as_secs())))?;
         self.healthy()
     }
 

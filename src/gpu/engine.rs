@@ -82,13 +82,15 @@ impl GpuEngine {
             match report.halted() {
                 Halted::ForDirectSolve => {
                     done.trouble = self.solve_directly()?;
-                    let handed_over = !step.contains(&Operation::DirectSolve);
-                    self.fallbacks += u32::from(handed_over);
+                    // Trouble ends the step that it was met in.
+                    done.steps += u32::from(done.trouble.is_some());
+                    self.fallbacks += u32::from(!step.contains(&Operation::DirectSolve));
                 }
                 Halted::ByNonFinite => done.trouble = trouble(&report),
                 Halted::Not | Halted::InSolve | Halted::ByOverflow => {}
             }
-            let over = if counted { done.steps >= steps } else { cursor.operation >= step.len() || at_rest(&cursor, &report) };
+            let over =
+                if counted { done.steps >= steps } else { cursor.operation >= step.len() || at_rest(&cursor, &report) };
             if over || done.trouble.is_some() {
                 break;
             }
@@ -107,8 +109,8 @@ impl GpuEngine {
     /// Solves the pressure equation on the host; a source that is not finite is trouble instead.
     fn solve_directly(&mut self) -> Result<Option<NonFinite>, EngineError> {
         let Data::Real(source) = self.read(Buffer::Source)? else { return Err(EngineError::Absent(Buffer::Source)) };
-        if let Some(point) = source.iter().position(|value| !value.is_finite()) {
-            return Ok(Some(NonFinite { buffer: Buffer::Projected, point }));
+        if source.iter().any(|value| !value.is_finite()) {
+            return self.first_non_finite(Buffer::Projected, 2);
         }
         let direct = match self.direct.take() {
             Some(direct) => direct,
@@ -119,6 +121,13 @@ impl GpuEngine {
         self.memory.write(&self.gpu, Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
         self.solve.outcome = Outcome::Converged;
         Ok(None)
+    }
+
+    /// The first point whose `width` entries are not all finite.
+    fn first_non_finite(&mut self, buffer: Buffer, width: usize) -> Result<Option<NonFinite>, EngineError> {
+        let Data::Real(values) = self.read(buffer)? else { return Ok(None) };
+        let entry = values.iter().position(|value| !value.is_finite());
+        Ok(entry.map(|entry| NonFinite { buffer, point: entry / width }))
     }
 }
 
@@ -149,6 +158,12 @@ impl Engine for GpuEngine {
     }
 
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+        if !self.program.has(operation) {
+            let touched = [operation.reads(&self.scene.plan), operation.writes()].concat();
+            let lacking = touched.into_iter().find(|&buffer| self.memory.field(buffer).is_err());
+            let unknown = || EngineError::Device(format!("this plan has no operation {}", operation.name()));
+            return Err(lacking.map_or_else(unknown, EngineError::Absent));
+        }
         self.set_clock(clock)?;
         self.run(&[operation], 1, false).map(|_| ())
     }

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingType, Buffer as GpuBuffer, BufferBindingType, ComputePass, ComputePipeline, ComputePipelineDescriptor, Device,
-    PipelineCompilationOptions, PipelineLayoutDescriptor, ShaderModuleDescriptor, ShaderSource, ShaderStages,
+    BindingType, Buffer as GpuBuffer, BufferBindingType, ComputePass, ComputePipeline, ComputePipelineDescriptor,
+    Device, PipelineCompilationOptions, PipelineLayoutDescriptor, ShaderModuleDescriptor, ShaderSource, ShaderStages,
 };
 
 use super::bindings::{Binding, bindings, declare};
@@ -104,8 +104,7 @@ fn compile(device: &Device, name: &str, source: &str, bindings: &[Binding]) -> (
             count: None,
         })
         .collect();
-    let layout =
-        device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(name), entries: &entries });
+    let layout = device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(name), entries: &entries });
     let pipeline_layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
         label: Some(name),
         bind_group_layouts: &[Some(&layout)],
@@ -119,7 +118,10 @@ fn compile(device: &Device, name: &str, source: &str, bindings: &[Binding]) -> (
         module: &module,
         entry_point: Some("main"),
         // Every kernel writes its workgroup memory before it reads it.
-        compilation_options: PipelineCompilationOptions { zero_initialize_workgroup_memory: false, ..Default::default() },
+        compilation_options: PipelineCompilationOptions {
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
         cache: None,
     });
     (pipeline, layout)

@@ -9,6 +9,7 @@ macro_rules! numbered {
 
         impl $name {
             pub(super) const NAMES: &[&str] = &[$($wgsl),*];
+            #[allow(dead_code, reason = "not every list is walked")]
             pub(super) const ALL: &[Self] = &[$($name::$variant),*];
         }
     };

@@ -73,10 +73,8 @@ impl Shape {
 pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     let (sizes, constants) = (&scene.sizes, &scene.constants);
     let shape = Shape::new(scene);
-    let mut text = format!(
-        "alias real = {};\nalias vector = vec2<real>;\nalias sums = vec4<real>;\n",
-        precision.name()
-    );
+    let mut text =
+        format!("alias real = {};\nalias vector = vec2<real>;\nalias sums = vec4<real>;\n", precision.name());
     let extent = Shape::extent(shape.points);
     let forced = if scene.plan.forces_reach_walls() { sizes.points } else { sizes.interior };
     let whole: &[(&str, usize)] = &[

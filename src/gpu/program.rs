@@ -64,8 +64,12 @@ impl Program {
         Ok(Self { parts, end_step, measure })
     }
 
-    /// Writes one operation into a pass; `resumed` takes up the solve that the last batch left unfinished. Returns how
-    /// many dispatches that took, or `None` for an operation that the plan does not have.
+    pub fn has(&self, operation: Operation) -> bool {
+        self.parts.contains_key(&operation)
+    }
+
+    /// Writes one operation of the plan into a pass; `resumed` takes up the solve that the last batch left unfinished.
+    /// Returns how many dispatches that took.
     pub fn encode(
         &self,
         operation: Operation,
@@ -73,15 +77,16 @@ impl Program {
         budget: Budget,
         pass: &mut ComputePass<'_>,
         dispatches: &GpuBuffer,
-    ) -> Option<usize> {
+    ) -> usize {
         let mut count = 0;
         let mut run = |launches: &[Launch]| {
             launches.iter().for_each(|launch| launch.encode(pass, dispatches));
             count += launches.len();
         };
-        match self.parts.get(&operation)? {
-            Part::Once(launches) => run(launches),
-            Part::Solve { begin, check, iterate, end } => {
+        match self.parts.get(&operation) {
+            None => {}
+            Some(Part::Once(launches)) => run(launches),
+            Some(Part::Solve { begin, check, iterate, end }) => {
                 if !resumed {
                     run(std::slice::from_ref(begin));
                     run(check);
@@ -93,7 +98,7 @@ impl Program {
                 run(std::slice::from_ref(end));
             }
         }
-        Some(count)
+        count
     }
 
     pub fn encode_end_step(&self, pass: &mut ComputePass<'_>, dispatches: &GpuBuffer) {

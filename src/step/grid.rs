@@ -17,8 +17,10 @@ impl Grid {
 
     /// Cells no smaller than `radius`, m, over a rectangle of `size`, m.
     pub fn new(size: DVec2, radius: f64) -> Self {
-        // A hair above the radius, so that rounding to f32 never puts a neighbour two cells away.
-        let side = (radius * 1.00001).max(size.max_element() / Self::MOST);
+        // A little above the radius, so that rounding to f32 never puts a neighbour two cells away: a place of many cells
+        // from the origin is off by as many rounding units.
+        let slack = 1.0 + 1e-6 * (size.max_element() / radius).clamp(10.0, Self::MOST);
+        let side = (radius * slack).max(size.max_element() / Self::MOST);
         let along = |length: f64| (length / side).floor() as u32 + 1;
         Self { cells: [along(size.x), along(size.y)], per_metre: 1.0 / side }
     }

@@ -36,7 +36,12 @@ end = 1.0
 const CHANGES: [&[&str]; 5] = [
     &[],
     &["effects.pressure.gradient=\"adjoint\"", "effects.pressure.solver=\"bicgstab\"", "method.weight=\"none\""],
-    &["effects.pressure.form=\"collocated\"", "time.splitting=\"projection\"", "effects.advection.remap=\"forward\""],
+    &[
+        "effects.pressure.form=\"collocated\"",
+        "time.splitting=\"projection\"",
+        "effects.advection.remap=\"forward\"",
+        "cloud.arrangement=\"regular\"",
+    ],
     &["effects.pressure.solver=\"direct\""],
     &["effects.pressure.tolerance=1e-4", "cloud.arrangement=\"random\"", "time.splitting=\"projection\""],
 ];
@@ -55,8 +60,13 @@ fn still_scene() -> Scene {
     scene_of(&CAVITY.replace("[effects.advection]\n", ""), &[])
 }
 
-/// An engine, set up; `None`, said aloud, where there is no adapter.
-fn engine(scene: Scene, precision: Precision) -> Option<GpuEngine> {
+/// No pressure: nothing but viscosity and advection.
+fn forceless_scene() -> Scene {
+    scene_of(&CAVITY.replace("[effects.pressure]\n", ""), &[])
+}
+
+/// An engine as it is made; `None`, said aloud, where there is no adapter.
+fn made(scene: &Arc<Scene>, precision: Precision) -> Option<GpuEngine> {
     let candidate = match adapter::choose(None) {
         Ok(candidate) => candidate,
         Err(EngineError::Adapter(reason)) => {
@@ -66,8 +76,13 @@ fn engine(scene: Scene, precision: Precision) -> Option<GpuEngine> {
         Err(error) => panic!("{error}"),
     };
     let gpu = Gpu::open(&candidate, precision).expect("the adapter opens");
+    Some(GpuEngine::new(Arc::clone(scene), gpu).expect("the kernels compile"))
+}
+
+/// The same, set up.
+fn engine(scene: Scene, precision: Precision) -> Option<GpuEngine> {
     let scene = Arc::new(scene);
-    let mut engine = GpuEngine::new(Arc::clone(&scene), gpu).expect("the kernels compile");
+    let mut engine = made(&scene, precision)?;
     for &operation in &scene.plan.setup {
         engine.apply(operation, &scene.clock(1.0)).expect("setup");
     }
