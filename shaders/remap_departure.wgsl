@@ -1,5 +1,5 @@
-// Advection, departure-point remap: the fluid that arrives at a standing point came from r0 - dt u, the velocity taken
-// half a step back along the path; the fit of the point nearest to that place is evaluated there.
+// Advection, departure-point remap: the fluid that arrives at a standing point came from r0 - dt u, the velocity being
+// that at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
 //
 // Continuous: Du/Dt along the path of a fluid point. Discrete: u(r0) = u'(r0 - dt u'). Units: m/s.
 
@@ -14,16 +14,17 @@ fn square_to(j: u32, place: vector) -> real {
     return d.x * d.x + d.y * d.y;
 }
 
-// The point nearest to `place`, found by walking from point to nearer neighbour.
+// The point nearest to `place`, found by walking from point to nearer point among those around it: its neighbours, or
+// those across the faces of its Voronoi cell.
 fn nearest(place: vector, start: u32) -> u32 {
     var here = start;
     var least = square_to(here, place);
     loop {
         var next = here;
-        let first = at(here, 0u, CAPACITY);
-        let last = first + min(neighbour_count[here], CAPACITY) * BLOCK;
+        let first = at(here, 0u, AROUND_CAPACITY);
+        let last = first + min(around_count[here], AROUND_CAPACITY) * BLOCK;
         for (var slot = first; slot < last; slot += BLOCK) {
-            let j = neighbours[slot];
+            let j = around[slot];
             let square = square_to(j, place);
             if square < least {
                 next = j;

@@ -157,7 +157,8 @@ impl Run<'_> {
                 let advance = self.engine.advance(some, &clock)?;
                 done += advance.steps;
                 step += u64::from(advance.steps);
-                now += f64::from(advance.steps) * dt;
+                // Not step by step: the time must not depend on how long the stretches were.
+                now = row_start + f64::from(done) * dt;
                 iterations += advance.iterations;
                 fallbacks += u64::from(advance.fallbacks);
                 if let Some(field) = advance.trouble {

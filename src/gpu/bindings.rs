@@ -119,8 +119,16 @@ fn name_in(operation: Operation, buffer: Buffer, scene: &Scene) -> String {
     if carries && buffer == plan.moving() {
         return "moving".to_owned();
     }
-    if operation == Operation::Viscosity && buffer == plan.diffused() {
+    if let Operation::Viscosity(stage) = operation
+        && buffer == stage.velocity()
+    {
         return "diffused".to_owned();
+    }
+    if operation == Operation::RemapDeparture {
+        let [around, around_count] = plan.around();
+        if buffer == around || buffer == around_count {
+            return if buffer == around { "around" } else { "around_count" }.to_owned();
+        }
     }
     let name = buffer.name();
     match operation {

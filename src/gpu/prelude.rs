@@ -85,6 +85,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("FORCED", forced),
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
+        ("AROUND_CAPACITY", scene.plan.around_capacity(sizes)),
         ("CELLS", sizes.cells),
         ("CELLS_X", constants.grid.cells[0] as usize),
         ("CELLS_Y", constants.grid.cells[1] as usize),

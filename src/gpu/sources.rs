@@ -25,6 +25,7 @@ pub(super) enum Stages {
     Solve { check: Vec<Stage>, iterate: Vec<Stage> },
 }
 
+#[cfg(test)]
 impl Stages {
     pub fn all(&self) -> impl Iterator<Item = Stage> + '_ {
         let (first, second): (&[Stage], &[Stage]) = match self {
@@ -75,7 +76,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::KeepVelocity => once(stage!("keep_velocity", Points)),
         Operation::ClearKick => once(stage!("clear_kick", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
-        Operation::Viscosity => once(stage!("viscosity", Points)),
+        Operation::Viscosity(_) => once(stage!("viscosity", Points)),
         Operation::Predict => once(stage!("predict", Points)),
         Operation::Divergence => once(stage!("divergence", Points)),
         Operation::CollocatedSource => once(stage!("collocated_source", Points)),
@@ -147,6 +148,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "weight" => match scene.constants.weight {
             Weight::None => text!("weight/none"),
             Weight::Quadratic => text!("weight/quadratic"),
+            Weight::Smooth => text!("weight/smooth"),
         },
         "matrix" if conservative => text!("matrix/conservative"),
         "matrix" => text!("matrix/collocated"),

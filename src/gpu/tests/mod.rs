@@ -43,7 +43,12 @@ const CHANGES: [&[&str]; 5] = [
         "cloud.arrangement=\"regular\"",
     ],
     &["effects.pressure.solver=\"direct\""],
-    &["effects.pressure.tolerance=1e-4", "cloud.arrangement=\"random\"", "time.splitting=\"projection\""],
+    &[
+        "effects.pressure.tolerance=1e-4",
+        "method.weight=\"quadratic\"",
+        "cloud.arrangement=\"random\"",
+        "time.splitting=\"projection\"",
+    ],
 ];
 
 fn scene_of(text: &str, changes: &[&str]) -> Scene {

@@ -12,7 +12,7 @@ use crate::gpu::prelude::prelude;
 use crate::gpu::program::{end_step_stages, measured_arrays};
 use crate::gpu::sources::{self, Stages};
 use crate::scene::Scene;
-use crate::step::{Operation, Points};
+use crate::step::{Operation, Points, Stage};
 
 /// Functions whose f64 versions pass validation and return garbage on some drivers.
 const NOT_IN_F64: [&str; 12] =
@@ -82,7 +82,8 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::KeepVelocity,
         Operation::ClearKick,
         Operation::EstimateMiddle,
-        Operation::Viscosity,
+        Operation::Viscosity(Stage::Start),
+        Operation::Viscosity(Stage::Middle),
         Operation::Predict,
         Operation::Divergence,
         Operation::CollocatedSource,
