@@ -48,6 +48,12 @@ impl GpuEngine {
         &self.gpu
     }
 
+    /// Lets the next batch hold this many iterations for each solve, and returns how many it was going to.
+    #[cfg(test)]
+    pub(super) fn hold_iterations(&mut self, iterations: u32) -> u32 {
+        std::mem::replace(&mut self.pace.budget.iterations, iterations)
+    }
+
     fn set_clock(&self, clock: &Clock) -> Result<(), EngineError> {
         let constants = &self.scene.constants;
         let density_per_kick = constants.density / clock.kick;
