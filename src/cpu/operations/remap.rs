@@ -24,7 +24,12 @@ pub fn remap_departure<T: Real>(
     blocks::for_each(velocity, 2, |block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
-            let inside = |x: T, length: T| x.max(T::zero()).min(length);
+            // Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that of a corner.
+            let inside = |x: T, length: T| match x {
+                low if low < T::zero() => T::zero(),
+                high if high > length => length,
+                x => x,
+            };
             let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
             let own = [values[2 * i], values[2 * i + 1]];
             let from = back(evaluate(i, back(own)));
