@@ -18,7 +18,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("fluid.density", "a number above 0, kg/m^3"),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
-    ("method.weight", r#""none" or "quadratic""#),
+    ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
     ("effects.pressure.form", r#""conservative" or "collocated""#),
     ("effects.pressure.gradient", r#""fit" or "adjoint""#),

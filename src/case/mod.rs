@@ -119,7 +119,7 @@ pub struct Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Self { radius: 2.6, weight: Weight::Quadratic }
+        Self { radius: 2.6, weight: Weight::Smooth }
     }
 }
 
@@ -131,6 +131,8 @@ pub enum Weight {
     None,
     /// `(1 - r/r_e)^2`.
     Quadratic,
+    /// `(1 - (r/r_e)^2)^4`: no square root, and nearer neighbours count for more.
+    Smooth,
 }
 
 /// The physics of a scene; a table that is absent costs nothing.

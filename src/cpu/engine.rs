@@ -25,6 +25,8 @@ const WATCH_EVERY: u32 = 10;
 pub struct CpuEngine<T: Real> {
     scene: Arc<Scene>,
     fields: Fields<T>,
+    /// Reciprocals of `Volume`: the solvers' loops divide by it in every iteration.
+    per_volume: Vec<T>,
     direct: Option<DirectSolver>,
     solve: SolveInfo,
     fallbacks: u32,
@@ -47,7 +49,8 @@ impl<T: Real> CpuEngine<T> {
         for (buffer, data) in scene.initial() {
             fields.write(buffer, &data)?;
         }
-        Ok(Self { scene, fields, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
+        let per_volume = reciprocals(fields.real(Buffer::Volume)?);
+        Ok(Self { scene, fields, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
     fn fits<'a, W: WeightFunction>(&'a self, points: Points, weight: W) -> Result<Fits<'a, T, W>, EngineError> {
@@ -225,13 +228,16 @@ impl<T: Real> CpuEngine<T> {
                 });
             }
             _ => {
+                let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
                     remap::remap_departure(
                         self.standing(Buffer::Position)?,
                         self.standing(Buffer::Support)?,
-                        self.fields.index(Buffer::Neighbours(Points::Standing))?,
-                        self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
-                        sizes.capacity,
+                        remap::Around {
+                            neighbours: self.fields.index(around)?,
+                            count: self.fields.index(around_count)?,
+                            capacity: scene.plan.around_capacity(sizes),
+                        },
                         constants.size.to_array().map(T::from_f64),
                         self.fields.real(moving)?,
                         self.fields.real(Buffer::Coefficients)?,
@@ -256,13 +262,14 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::EstimateMiddle => {
                 with_taken!(self.fields, [middle = Buffer::Projected, kick = Buffer::Kick], {
-                    kick::estimate_middle(self.fields.real(Buffer::Velocity)?, &mut middle, &mut kick);
+                    let velocity = self.fields.real(Buffer::Velocity)?;
+                    kick::estimate_middle(velocity, self.fields.real(Buffer::PressureKick)?, &mut middle, &mut kick);
                 });
             }
-            Operation::Viscosity => {
+            Operation::Viscosity(stage) => {
                 let diffusion = T::from_f64(clock.kick * constants.viscosity);
                 with_taken!(self.fields, [kick = Buffer::Kick], {
-                    let field = self.fields.real(scene.plan.diffused())?;
+                    let field = self.fields.real(stage.velocity())?;
                     with_weight!(constants.weight, weight => derivative::viscosity(
                         self.fits(standing, weight)?, field, diffusion, self.forced(), &mut kick));
                 });
@@ -301,11 +308,10 @@ impl<T: Real> CpuEngine<T> {
             }
             _ => {
                 let second = T::from_f64(clock.second_kick);
-                let (kicks, means) = (Buffer::Kick, Buffer::PressureKick);
-                with_taken!(self.fields, [kick = kicks, mean = means, reflected = Buffer::Reflected], {
+                with_taken!(self.fields, [mean = Buffer::PressureKick, reflected = Buffer::Reflected], {
                     let velocity = self.fields.real(Buffer::Velocity)?;
-                    let middle = self.fields.real(Buffer::Projected)?;
-                    kick::reflect(velocity, middle, second, &mut kick, &mut mean, &mut reflected);
+                    let (middle, kick) = (self.fields.real(Buffer::Projected)?, self.fields.real(Buffer::Kick)?);
+                    kick::reflect(velocity, middle, kick, second, sizes.interior, &mut mean, &mut reflected);
                 });
             }
         }
@@ -364,7 +370,7 @@ impl<T: Real> CpuEngine<T> {
     }
 
     fn conservative(&self) -> Result<Conservative<'_, T>, EngineError> {
-        Ok(Conservative { faces: self.faces()?, volume: self.fields.real(Buffer::Volume)? })
+        Ok(Conservative { faces: self.faces()?, per_volume: &self.per_volume })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -460,7 +466,11 @@ impl<T: Real> Engine for CpuEngine<T> {
     }
 
     fn write(&mut self, buffer: Buffer, data: &Data) -> Result<(), EngineError> {
-        self.fields.write(buffer, data)
+        self.fields.write(buffer, data)?;
+        if buffer == Buffer::Volume {
+            self.per_volume = reciprocals(self.fields.real(buffer)?);
+        }
+        Ok(())
     }
 
     fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError> {
@@ -481,7 +491,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::KeepVelocity => self.drift(operation, clock),
             Operation::ClearKick
             | Operation::EstimateMiddle
-            | Operation::Viscosity
+            | Operation::Viscosity(_)
             | Operation::Predict
             | Operation::CorrectByFit
             | Operation::CorrectByAdjoint
@@ -541,4 +551,8 @@ impl<T: Real> Engine for CpuEngine<T> {
         self.fields.put(Buffer::Reported, reported);
         Ok(measurement)
     }
+}
+
+fn reciprocals<T: Real>(values: &[T]) -> Vec<T> {
+    values.iter().map(|&value| T::from_f64(1.0) / value).collect()
 }

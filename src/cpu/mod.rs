@@ -3,6 +3,7 @@
 pub mod blocks;
 mod engine;
 mod fields;
+mod gather;
 pub mod operations;
 pub mod real;
 

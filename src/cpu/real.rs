@@ -7,6 +7,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use bytemuck::Pod;
 use wide::{f32x8, f64x4};
 
+use super::gather;
+
 /// `f32` or `f64`.
 pub trait Real:
     Pod
@@ -69,6 +71,8 @@ pub trait Pack<T: Real>:
     fn from_lanes(lane: impl FnMut(usize) -> T) -> Self;
     fn lane(&self, lane: usize) -> T;
     fn sqrt(self) -> Self;
+    /// `self * factor + term`, rounded once where the processor can.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
     fn max(self, other: Self) -> Self;
     /// `yes` where `self > bound`, else `no`, lane by lane.
     fn select_above(self, bound: Self, yes: Self, no: Self) -> Self;
@@ -93,14 +97,7 @@ pub trait Pack<T: Real>:
     ///
     /// # Safety
     /// Twice each of the first `LANES` indexes, plus one, is below `values.len()`.
-    #[inline(always)]
-    unsafe fn gather_vectors(values: &[T], index: &[u32]) -> [Self; 2] {
-        debug_assert!(index[..Self::LANES].iter().all(|&i| 2 * (i as usize) + 1 < values.len()));
-        let index = &index[..Self::LANES];
-        // SAFETY: the caller's promise.
-        let part = |c: usize| Self::from_lanes(|lane| unsafe { *values.get_unchecked(2 * index[lane] as usize + c) });
-        [part(0), part(1)]
-    }
+    unsafe fn gather_vectors(values: &[T], index: &[u32]) -> [Self; 2];
 
     /// The x and y parts of the first `LANES` interleaved vectors.
     #[inline(always)]
@@ -111,7 +108,7 @@ pub trait Pack<T: Real>:
 }
 
 macro_rules! real {
-    ($real:ty, $pack:ty, $lanes:literal) => {
+    ($real:ty, $pack:ty, [$($lane:literal),*], $gather:path) => {
         impl Real for $real {
             type Pack = $pack;
             const EPSILON: Self = <$real>::EPSILON;
@@ -144,7 +141,7 @@ macro_rules! real {
         }
 
         impl Pack<$real> for $pack {
-            const LANES: usize = $lanes;
+            const LANES: usize = [$($lane),*].len();
 
             #[inline(always)]
             fn splat(value: $real) -> Self {
@@ -153,18 +150,31 @@ macro_rules! real {
 
             #[inline(always)]
             fn load(values: &[$real]) -> Self {
-                let values: &[$real; $lanes] = values[..$lanes].try_into().unwrap_or(&[0.0; $lanes]);
-                <$pack>::new(*values)
+                let values = &values[..Self::LANES];
+                <$pack>::new([$(values[$lane]),*])
             }
 
             #[inline(always)]
             fn store(self, values: &mut [$real]) {
-                values[..$lanes].copy_from_slice(&self.to_array());
+                values[..Self::LANES].copy_from_slice(&self.to_array());
             }
 
             #[inline(always)]
-            fn from_lanes(lane: impl FnMut(usize) -> $real) -> Self {
-                <$pack>::new(std::array::from_fn(lane))
+            fn from_lanes(mut lane: impl FnMut(usize) -> $real) -> Self {
+                <$pack>::new([$(lane($lane)),*])
+            }
+
+            #[inline(always)]
+            unsafe fn gather_vectors(values: &[$real], index: &[u32]) -> [Self; 2] {
+                debug_assert!(index[..Self::LANES].iter().all(|&i| 2 * (i as usize) + 1 < values.len()));
+                let index = &index[..Self::LANES];
+                // SAFETY: the caller's promise.
+                unsafe { $gather(values, &[$(index[$lane]),*]) }
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                <$pack>::mul_add(self, factor, term)
             }
 
             #[inline(always)]
@@ -261,8 +271,19 @@ impl<T: Real> Pack<T> for One<T> {
     }
 
     #[inline(always)]
+    unsafe fn gather_vectors(values: &[T], index: &[u32]) -> [Self; 2] {
+        let at = 2 * index[0] as usize;
+        [Self(values[at]), Self(values[at + 1])]
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(self.0 * factor.0 + term.0)
     }
 
     #[inline(always)]
@@ -276,5 +297,5 @@ impl<T: Real> Pack<T> for One<T> {
     }
 }
 
-real!(f64, f64x4, 4);
-real!(f32, f32x8, 8);
+real!(f64, f64x4, [0, 1, 2, 3], gather::vectors_f64);
+real!(f32, f32x8, [0, 1, 2, 3, 4, 5, 6, 7], gather::vectors_f32);

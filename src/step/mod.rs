@@ -5,7 +5,8 @@
 //! ```text
 //! drift   fit_velocity        fits of the velocity u' that moves the points
 //!         remap_departure     u(r0) = u'(where the fluid came from)            values stand on the points again
-//! kick    estimate_middle     u_m ~ u + last half kick
+//! kick    viscosity           kick = (dt/2) nu lap u
+//!         estimate_middle     u_m ~ u + kick - last pressure kick
 //!         viscosity           kick = (dt/2) nu lap u_m
 //!         predict             u* = u + kick
 //!         divergence          b = -(rho / (dt/2)) V div u*
@@ -24,7 +25,7 @@ mod rung;
 
 pub use buffer::{Buffer, Element, Points};
 pub use grid::Grid;
-pub use operation::Operation;
+pub use operation::{Operation, Stage};
 pub use plan::{Plan, Sizes};
 pub use rung::Rung;
 

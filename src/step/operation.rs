@@ -4,6 +4,25 @@ use serde::Serialize;
 
 use super::{Buffer, Points};
 
+/// Which velocity a force is taken of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Stage {
+    /// The one that the kick begins from.
+    Start,
+    /// The estimate in the middle of the kick: second order (Heun's midpoint rule).
+    Middle,
+}
+
+impl Stage {
+    /// Where that velocity stands.
+    pub fn velocity(self) -> Buffer {
+        match self {
+            Stage::Start => Buffer::Velocity,
+            Stage::Middle => Buffer::Projected,
+        }
+    }
+}
+
 /// One thing that an engine does to its arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum Operation {
@@ -31,10 +50,10 @@ pub enum Operation {
 
     /// Forgets the kick of the last step.
     ClearKick,
-    /// Estimates the velocity in the middle of the kick from the last one, then forgets that.
+    /// Estimates the velocity in the middle of the kick, `u + kick - pressure kick`, then forgets the kick.
     EstimateMiddle,
     /// Adds `dt nu lap u` to the kick.
-    Viscosity,
+    Viscosity(Stage),
     /// `u* = u + kick`.
     Predict,
     /// Source of the conservative pressure equation: the volume flux of `u*` out of every cell.
@@ -73,7 +92,7 @@ impl Operation {
             Operation::KeepVelocity => "keep_velocity",
             Operation::ClearKick => "clear_kick",
             Operation::EstimateMiddle => "estimate_middle",
-            Operation::Viscosity => "viscosity",
+            Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
             Operation::CollocatedSource => "collocated_source",
@@ -109,8 +128,8 @@ impl Operation {
             Operation::AssembleCollocated => with(fits(standing), &[Normal]),
             Operation::FitVelocity(points) => with(fits(points), &[plan.moving()]),
             Operation::RemapDeparture => {
-                let points = [Position(standing), Neighbours(standing), NeighbourCount(standing), Support(standing)];
-                with(points.to_vec(), &[plan.moving(), Coefficients])
+                let [around, around_count] = plan.around();
+                vec![Position(standing), around, around_count, Support(standing), plan.moving(), Coefficients]
             }
             Operation::MovePoints => vec![Position(standing), plan.moving()],
             Operation::RemapForward => {
@@ -118,8 +137,8 @@ impl Operation {
             }
             Operation::KeepVelocity => vec![plan.moving()],
             Operation::ClearKick => vec![],
-            Operation::EstimateMiddle => vec![Velocity],
-            Operation::Viscosity => with(fits(standing), &[plan.diffused()]),
+            Operation::EstimateMiddle => vec![Velocity, PressureKick],
+            Operation::Viscosity(stage) => with(fits(standing), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
             Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
             Operation::CollocatedSource => with(fits(standing), &[Normal, RowScale, Velocity, Projected]),
@@ -128,7 +147,7 @@ impl Operation {
             Operation::CorrectByFit => with(fits(standing), &[Pressure]),
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
-            Operation::Reflect => vec![Velocity, Projected],
+            Operation::Reflect => vec![Velocity, Projected, Kick],
         }
     }
 
@@ -146,7 +165,7 @@ impl Operation {
             Operation::FitVelocity(_) => vec![Coefficients],
             Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
             Operation::MovePoints => vec![Position(Points::Moved)],
-            Operation::ClearKick | Operation::Viscosity => vec![Kick],
+            Operation::ClearKick | Operation::Viscosity(_) => vec![Kick],
             Operation::EstimateMiddle => vec![Projected, Kick],
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]
@@ -157,7 +176,7 @@ impl Operation {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]
             }
             Operation::DirectSolve => vec![Pressure],
-            Operation::Reflect => vec![Kick, PressureKick, Reflected],
+            Operation::Reflect => vec![PressureKick, Reflected],
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Element, Operation, Points};
+use super::{Buffer, Element, Operation, Points, Stage};
 use crate::case::{Case, Gradient, PressureForm, Remap, Solver, Splitting};
 
 /// How many of everything there are.
@@ -36,8 +36,10 @@ impl Plan {
     pub fn new(case: &Case) -> Self {
         use Operation::*;
         let effects = &case.effects;
-        let splitting = case.time.splitting;
+        // Without a pressure there is nothing to reflect.
+        let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
+        let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
         let standing = Points::Standing;
         let mut setup =
             vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
@@ -52,9 +54,16 @@ impl Plan {
                 drift.extend([FitVelocity(moved), RemapForward]);
             }
         }
-        let mut kick = vec![if reflects { EstimateMiddle } else { ClearKick }];
+        let mut kick = vec![ClearKick];
         if effects.viscosity.is_some() {
-            kick.push(Viscosity);
+            kick.push(Viscosity(Stage::Start));
+            if reflects {
+                kick.push(EstimateMiddle);
+                if collocated {
+                    kick.push(HoldWalls);
+                }
+                kick.push(Viscosity(Stage::Middle));
+            }
         }
         kick.push(Predict);
         if let Some(pressure) = &effects.pressure {
@@ -75,7 +84,7 @@ impl Plan {
                 Gradient::Fit => CorrectByFit,
                 Gradient::Adjoint => CorrectByAdjoint,
             });
-            if pressure.form == PressureForm::Collocated {
+            if collocated {
                 kick.push(HoldWalls);
             }
         }
@@ -98,14 +107,6 @@ impl Plan {
         }
     }
 
-    /// The velocity whose Laplacian is taken.
-    pub fn diffused(&self) -> Buffer {
-        match self.splitting {
-            Splitting::Reflection => Buffer::Projected,
-            Splitting::Projection => Buffer::Velocity,
-        }
-    }
-
     /// The arrays that hold the pressure matrix.
     pub fn matrix(&self) -> Vec<Buffer> {
         match self.form {
@@ -117,6 +118,23 @@ impl Plan {
                 vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points), Buffer::MatrixRow]
             }
             None => Vec::new(),
+        }
+    }
+
+    /// The lists of points around each point that the search for the nearest point walks along: those across the faces
+    /// where there are faces, else all neighbours; and how many of each list are in use.
+    pub fn around(&self) -> [Buffer; 2] {
+        match self.form {
+            Some(PressureForm::Conservative) => [Buffer::FaceNeighbours, Buffer::FaceCount],
+            _ => [Buffer::Neighbours(Points::Standing), Buffer::NeighbourCount(Points::Standing)],
+        }
+    }
+
+    /// Slots of those lists.
+    pub fn around_capacity(&self, sizes: &Sizes) -> usize {
+        match self.form {
+            Some(PressureForm::Conservative) => sizes.face_capacity,
+            _ => sizes.capacity,
         }
     }
 

@@ -74,16 +74,20 @@ pub fn solve<T: Real>(
                 break;
             }
             let alpha = T::Pack::splat(T::from_f64(rz / dq));
-            let [next, square, scale] = blocks::sum_over([&mut *residual, &mut *pressure], |start, [r, p]| {
+            // The product is spent: its place takes z = r / D.
+            let arrays = [&mut *residual, &mut *pressure, &mut *product];
+            let [next, square, scale] = blocks::sum_over(arrays, |start, [r, p, q]| {
                 let mut sums = [T::Pack::zero(); 3];
                 for k in (0..r.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
                     let solution = T::Pack::load(&p[k..]) + alpha * T::Pack::load(&direction[i..]);
-                    let value = T::Pack::load(&r[k..]) - alpha * T::Pack::load(&product[i..]);
+                    let value = T::Pack::load(&r[k..]) - alpha * T::Pack::load(&q[k..]);
                     let diagonal = T::Pack::load(&diagonal[i..]);
+                    let z = value / diagonal;
                     solution.store(&mut p[k..]);
                     value.store(&mut r[k..]);
-                    sums[0] += value * value / diagonal;
+                    z.store(&mut q[k..]);
+                    sums[0] += value * z;
                     matrix.measure(i, value, diagonal * solution, &mut sums[1..]);
                 }
                 sums.map(|sum| lanes::<T>(sum))
@@ -92,9 +96,7 @@ pub fn solve<T: Real>(
             rz = next;
             let [] = blocks::sum_over([&mut *direction], |start, [d]| {
                 for k in (0..d.len()).step_by(T::Pack::LANES) {
-                    let i = start + k;
-                    let z = T::Pack::load(&residual[i..]) / T::Pack::load(&diagonal[i..]);
-                    (z + beta * T::Pack::load(&d[k..])).store(&mut d[k..]);
+                    (T::Pack::load(&product[start + k..]) + beta * T::Pack::load(&d[k..])).store(&mut d[k..]);
                 }
                 []
             });

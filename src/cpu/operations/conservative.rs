@@ -35,7 +35,8 @@ impl<T: Real> Faces<'_, T> {
 #[derive(Clone, Copy)]
 pub struct Conservative<'a, T> {
     pub faces: Faces<'a, T>,
-    pub volume: &'a [T],
+    /// `1 / V_i`, 1/m^2.
+    pub per_volume: &'a [T],
 }
 
 impl<T: Real> Rows<T> for Conservative<'_, T> {
@@ -53,7 +54,7 @@ impl<T: Real> Rows<T> for Conservative<'_, T> {
 
     #[inline(always)]
     fn measure(&self, i: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
-        let per_volume = T::Pack::splat(T::from_f64(1.0)) / T::Pack::load(&self.volume[i..]);
+        let per_volume = T::Pack::load(&self.per_volume[i..]);
         let (residual, size) = (residual * per_volume, size * per_volume);
         sums[0] += residual * residual;
         sums[1] += size * size;

@@ -25,7 +25,13 @@ impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
 
     #[inline(always)]
     pub fn factor(&self, i: usize) -> [T::Pack; FACTOR] {
-        std::array::from_fn(|k| T::Pack::load(&self.factor[blocks::at(i, k, FACTOR)..]))
+        let first = blocks::at(i, 0, FACTOR);
+        let values = &self.factor[first..first + (FACTOR - 1) * BLOCK + T::Pack::LANES];
+        let mut factor = [T::Pack::zero(); FACTOR];
+        for k in 0..FACTOR {
+            factor[k] = T::Pack::load(&values[k * BLOCK..]);
+        }
+        factor
     }
 
     /// Scaled coefficients `a1 .. a5` of a scalar field at the points `i..i + LANES`.
@@ -38,8 +44,9 @@ impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
             // SAFETY: as in `Stencil::for_each`.
             let difference = unsafe { T::Pack::gather(field, index) } - own;
             let weighted = self.weight.weight(square) * difference;
-            for (sum, term) in right.iter_mut().zip(moments::basis(x, y)) {
-                *sum += weighted * term;
+            let basis = moments::basis(x, y);
+            for k in 0..COEFFICIENTS {
+                right[k] = weighted.mul_add(basis[k], right[k]);
             }
         });
         (moments::solve(&self.factor(i), right), stencil.per_support)
@@ -56,13 +63,14 @@ impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
             let [u, v] = unsafe { T::Pack::gather_vectors(field, index) };
             let weight = self.weight.weight(square);
             let (u, v) = (weight * (u - own[0]), weight * (v - own[1]));
-            for (k, term) in moments::basis(x, y).into_iter().enumerate() {
-                right[0][k] += u * term;
-                right[1][k] += v * term;
+            let basis = moments::basis(x, y);
+            for k in 0..COEFFICIENTS {
+                right[0][k] = u.mul_add(basis[k], right[0][k]);
+                right[1][k] = v.mul_add(basis[k], right[1][k]);
             }
         });
         let factor = self.factor(i);
-        (right.map(|right| moments::solve(&factor, right)), stencil.per_support)
+        ([moments::solve(&factor, right[0]), moments::solve(&factor, right[1])], stencil.per_support)
     }
 }
 
@@ -122,8 +130,9 @@ pub fn fit_velocity<T: Real, W: WeightFunction>(fits: Fits<T, W>, velocity: &[T]
     blocks::for_each(coefficients, 2 * COEFFICIENTS, |block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let (fitted, _) = fits.vector(block * BLOCK + first, velocity);
-            for (k, a) in fitted.into_iter().flatten().enumerate() {
-                a.store(&mut out[k * BLOCK + first..]);
+            for k in 0..COEFFICIENTS {
+                fitted[0][k].store(&mut out[k * BLOCK + first..]);
+                fitted[1][k].store(&mut out[(COEFFICIENTS + k) * BLOCK + first..]);
             }
         }
     });

@@ -11,12 +11,12 @@ use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::real::Real;
 use crate::step::PRESSURE_RELAXATION;
 
-/// `u_m ~ u + kick` of the last step, in the middle of this one; the kick is then zero.
-pub fn estimate_middle<T: Real>(velocity: &[T], middle: &mut [T], kick: &mut [T]) {
+/// `u_m ~ u + kick - g`, in the middle of the kick, with the pressure's kick `g` of the last steps; the kick is then zero.
+pub fn estimate_middle<T: Real>(velocity: &[T], pressure_kick: &[T], middle: &mut [T], kick: &mut [T]) {
     blocks::for_each_2((middle, 2), (kick, 2), |block, middle, kick| {
         let first = 2 * block * BLOCK;
         for (k, (middle, kick)) in middle.iter_mut().zip(kick).enumerate() {
-            *middle = velocity[first + k] + *kick;
+            *middle = velocity[first + k] + *kick - pressure_kick[first + k];
             *kick = T::zero();
         }
     });
@@ -32,25 +32,29 @@ pub fn predict<T: Real>(velocity: &[T], kick: &[T], predicted: &mut [T]) {
     });
 }
 
-/// `u' = u_m + second (kick - g)`; `pressure_kick` moves towards `g`; `kick` becomes the whole change of the half step,
-/// `u_m - u`, which the next step's estimate begins from.
+/// `u' = u_m + second (kick - g)` inside, after `g` has moved towards `u + kick - u_m`, the pressure's kick of this step;
+/// walls keep `u_m`.
 pub fn reflect<T: Real>(
     velocity: &[T],
     middle: &[T],
+    kick: &[T],
     second: T,
-    kick: &mut [T],
+    interior: usize,
     pressure_kick: &mut [T],
     reflected: &mut [T],
 ) {
     let share = T::from_f64(PRESSURE_RELAXATION);
-    blocks::for_each_3((kick, 2), (pressure_kick, 2), (reflected, 2), |block, kick, pressure_kick, reflected| {
+    blocks::for_each_2((pressure_kick, 2), (reflected, 2), |block, pressure_kick, reflected| {
         let first = 2 * block * BLOCK;
-        for (k, ((kick, mean), out)) in kick.iter_mut().zip(pressure_kick).zip(reflected).enumerate() {
-            let (u, u_m) = (velocity[first + k], middle[first + k]);
-            let g = u + *kick - u_m;
-            *mean += share * (g - *mean);
-            *out = u_m + second * (*kick - *mean);
-            *kick = u_m - u;
+        for (k, (mean, out)) in pressure_kick.iter_mut().zip(reflected).enumerate() {
+            let u_m = middle[first + k];
+            *out = u_m;
+            if first + k < 2 * interior {
+                let kick = kick[first + k];
+                let g = velocity[first + k] + kick - u_m;
+                *mean += share * (g - *mean);
+                *out += second * (kick - *mean);
+            }
         }
     });
 }

@@ -6,7 +6,6 @@
 //! Shapes: 15 factor entries a point, row by row below the diagonal: l00, l10, l11, l20, ... l44; the diagonal holds
 //! reciprocals. A coefficient left out has zeros in its row, so that it comes out as zero.
 
-use crate::case::Weight;
 use crate::cpu::real::{Pack, Real};
 
 /// Coefficients of the full fit.
@@ -29,6 +28,10 @@ pub struct NoWeight;
 #[derive(Clone, Copy)]
 pub struct QuadraticWeight;
 
+/// `(1 - q^2)^4`.
+#[derive(Clone, Copy)]
+pub struct SmoothWeight;
+
 impl WeightFunction for NoWeight {
     #[inline(always)]
     fn weight<T: Real, P: Pack<T>>(self, _: P) -> P {
@@ -41,6 +44,15 @@ impl WeightFunction for QuadraticWeight {
     fn weight<T: Real, P: Pack<T>>(self, scaled_square: P) -> P {
         let rest = (P::splat(T::from_f64(1.0)) - scaled_square.sqrt()).max(P::zero());
         rest * rest
+    }
+}
+
+impl WeightFunction for SmoothWeight {
+    #[inline(always)]
+    fn weight<T: Real, P: Pack<T>>(self, scaled_square: P) -> P {
+        let rest = (P::splat(T::from_f64(1.0)) - scaled_square).max(P::zero());
+        let square = rest * rest;
+        square * square
     }
 }
 
@@ -58,16 +70,12 @@ macro_rules! with_weight {
                 let $weight = $crate::cpu::operations::moments::QuadraticWeight;
                 $body
             }
+            $crate::case::Weight::Smooth => {
+                let $weight = $crate::cpu::operations::moments::SmoothWeight;
+                $body
+            }
         }
     };
-}
-
-/// The weight as a plain number, for what is not a hot loop.
-pub fn weight_of(weight: Weight, scaled: f64) -> f64 {
-    match weight {
-        Weight::None => 1.0,
-        Weight::Quadratic => (1.0 - scaled).max(0.0).powi(2),
-    }
 }
 
 /// `(x, y, x^2, xy, y^2)`.
@@ -101,17 +109,16 @@ impl<P: Copy> Moments<P> {
         let [xx, xy, yy] = [x * x, x * y, y * y];
         let [wx, wy] = [weight * x, weight * y];
         let [wxx, wxy, wyy] = [wx * x, wx * y, wy * y];
-        let second = [wxx, wxy, wyy];
-        let third = [wxx * x, wxx * y, wyy * x, wyy * y];
-        let fourth = [wxx * xx, wxx * xy, wxx * yy, wyy * xy, wyy * yy];
-        for (sum, term) in self.second.iter_mut().zip(second) {
-            *sum += term;
+        let third = [(wxx, x), (wxx, y), (wyy, x), (wyy, y)];
+        let fourth = [(wxx, xx), (wxx, xy), (wxx, yy), (wyy, xy), (wyy, yy)];
+        for (k, term) in [wxx, wxy, wyy].into_iter().enumerate() {
+            self.second[k] += term;
         }
-        for (sum, term) in self.third.iter_mut().zip(third) {
-            *sum += term;
+        for (k, (a, b)) in third.into_iter().enumerate() {
+            self.third[k] = a.mul_add(b, self.third[k]);
         }
-        for (sum, term) in self.fourth.iter_mut().zip(fourth) {
-            *sum += term;
+        for (k, (a, b)) in fourth.into_iter().enumerate() {
+            self.fourth[k] = a.mul_add(b, self.fourth[k]);
         }
     }
 

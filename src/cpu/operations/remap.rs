@@ -12,9 +12,7 @@ use crate::cpu::real::Real;
 pub fn remap_departure<T: Real>(
     position: &[T],
     support: &[T],
-    neighbours: &[u32],
-    count: &[u32],
-    capacity: usize,
+    around: Around,
     size: [T; 2],
     values: &[T],
     coefficients: &[T],
@@ -30,7 +28,7 @@ pub fn remap_departure<T: Real>(
             let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
             let own = [values[2 * i], values[2 * i + 1]];
             let from = back(evaluate(i, back(own)));
-            let value = evaluate(nearest(position, neighbours, count, capacity, from, i), from);
+            let value = evaluate(nearest(position, around, from, i), from);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }
@@ -61,16 +59,18 @@ fn evaluate<T: Real>(
     [part(0), part(1)]
 }
 
+/// The points around each point: its neighbours, or those across the faces of its Voronoi cell, which suffice to walk from any
+/// point to the one nearest to a place.
+#[derive(Clone, Copy)]
+pub struct Around<'a> {
+    pub neighbours: &'a [u32],
+    pub count: &'a [u32],
+    pub capacity: usize,
+}
+
 /// The point nearest to `place`, found by walking from point to nearer neighbour, beginning at `from`.
 #[inline(always)]
-fn nearest<T: Real>(
-    position: &[T],
-    neighbours: &[u32],
-    count: &[u32],
-    capacity: usize,
-    place: [T; 2],
-    from: usize,
-) -> usize {
+fn nearest<T: Real>(position: &[T], around: Around, place: [T; 2], from: usize) -> usize {
     let square = |j: usize| {
         let (dx, dy) = (position[2 * j] - place[0], position[2 * j + 1] - place[1]);
         dx * dx + dy * dy
@@ -78,9 +78,9 @@ fn nearest<T: Real>(
     let (mut at, mut least) = (from, square(from));
     loop {
         let mut next = at;
-        let first = blocks::at(at, 0, capacity);
-        for slot in 0..(count[at] as usize).min(capacity) {
-            let j = neighbours[first + slot * BLOCK] as usize;
+        let first = blocks::at(at, 0, around.capacity);
+        for slot in 0..(around.count[at] as usize).min(around.capacity) {
+            let j = around.neighbours[first + slot * BLOCK] as usize;
             let distance = square(j);
             if distance < least {
                 (next, least) = (j, distance);
