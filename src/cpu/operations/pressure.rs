@@ -105,12 +105,12 @@ impl Monitor {
 /// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean, in the unit that the tolerance is in.
 pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, source: &[T], pressure: &[T]) -> f64 {
     let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
-    let [sum] = blocks::sum_ranges(source.len(), |range| {
+    let [sum] = blocks::sum_ranges(source.len(), &|range| {
         let packs = range.step_by(T::Pack::LANES);
         [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
     });
     let mean = T::Pack::splat(T::from_f64(sum / points as f64));
-    let [square] = blocks::sum_ranges(source.len(), |range| {
+    let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
         for i in range.step_by(T::Pack::LANES) {
             matrix.measure(i, within::<T>(left(i) - mean, i, points), T::Pack::zero(), &mut sums);
