@@ -73,7 +73,7 @@ pub struct Advance {
     pub steps: u32,
     /// Pressure iterations of all these steps.
     pub iterations: u64,
-    /// Solves that were handed to the direct solver.
+    /// Solves that were handed to the direct solver since the last call, those of single operations among them.
     pub fallbacks: u32,
     pub trouble: Option<NonFinite>,
 }

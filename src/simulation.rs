@@ -147,7 +147,7 @@ impl Run<'_> {
                 break Stop::End;
             }
             let asked = self.scene.case.output.report_every;
-            let left = ((time.end - now) / dt).ceil().max(1.0);
+            let left = steps_in(time.end - now, dt);
             let (row_start, mut done) = (now, 0_u32);
             let mut trouble = None;
             let count = (f64::from(asked)).min(left) as u32;
@@ -219,7 +219,7 @@ impl Run<'_> {
         if left <= 0.0 {
             return Ok(longest);
         }
-        let dt = left / (left / longest).ceil().max(1.0);
+        let dt = left / steps_in(left, longest);
         let courant = dt * speed / spacing;
         if forward && courant > FORWARD_LIMIT * (1.0 + 1e-9) {
             return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
@@ -300,6 +300,11 @@ impl Run<'_> {
         }
         Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure })
     }
+}
+
+/// Steps of at most `longest` that fill `left`, both in s: one rounding unit too many does not make one more.
+fn steps_in(left: f64, longest: f64) -> f64 {
+    (left / longest * (1.0 - 1e-12)).ceil().max(1.0)
 }
 
 /// Rows in a row that must be steady.

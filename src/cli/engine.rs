@@ -4,21 +4,63 @@ use std::sync::Arc;
 
 use super::CliError;
 use super::args::{EngineChoice, Precision, RunArguments};
-use crate::cpu::CpuEngine;
+use crate::cpu;
 use crate::engine::{Engine, EngineError};
+use crate::gpu::adapter::{self, Candidate};
+use crate::gpu::{self, Gpu, GpuEngine};
 use crate::scene::Scene;
 
-/// Opens the engine asked for; `auto` takes a hardware GPU if there is one, else the CPU.
+/// Opens the engine asked for; `auto` takes a hardware GPU if there is one, else the CPU, which beats a software one. A
+/// hardware GPU that will not open, or that the scene does not fit on, leaves `auto` to the CPU too.
 pub(super) fn open(scene: &Arc<Scene>, arguments: &RunArguments) -> Result<Box<dyn Engine>, CliError> {
-    match arguments.engine {
-        EngineChoice::Gpu => Err(EngineError::Adapter("no GPU engine in this build".to_owned()).into()),
-        EngineChoice::Cpu | EngineChoice::Auto => Ok(cpu(scene, arguments.precision)?),
+    let Asked { engine, adapter, precision } = Asked::new(arguments)?;
+    match engine {
+        EngineChoice::Cpu => Ok(on_cpu(scene, precision)?),
+        EngineChoice::Gpu => Ok(on_gpu(scene, &adapter::choose(adapter)?, precision)?),
+        EngineChoice::Auto => {
+            let hardware = adapter::list().into_iter().find(|candidate| !candidate.info.software);
+            match hardware.map(|candidate| on_gpu(scene, &candidate, precision)) {
+                Some(Ok(engine)) => Ok(engine),
+                Some(Err(_)) | None => Ok(on_cpu(scene, precision)?),
+            }
+        }
     }
 }
 
-fn cpu(scene: &Arc<Scene>, precision: Option<Precision>) -> Result<Box<dyn Engine>, EngineError> {
-    Ok(match precision.unwrap_or(Precision::F64) {
-        Precision::F32 => Box::new(CpuEngine::<f32>::new(Arc::clone(scene))?),
-        Precision::F64 => Box::new(CpuEngine::<f64>::new(Arc::clone(scene))?),
-    })
+struct Asked<'a> {
+    engine: EngineChoice,
+    adapter: Option<&'a str>,
+    precision: Option<Precision>,
+}
+
+impl<'a> Asked<'a> {
+    /// Naming an adapter asks for the GPU.
+    fn new(arguments: &'a RunArguments) -> Result<Self, CliError> {
+        let RunArguments { engine, adapter, precision, .. } = arguments;
+        let engine = match (engine, adapter) {
+            (EngineChoice::Cpu, Some(_)) => return Err(CliError::AdapterOnCpu),
+            (EngineChoice::Auto, Some(_)) => EngineChoice::Gpu,
+            (engine, _) => *engine,
+        };
+        Ok(Self { engine, adapter: adapter.as_deref(), precision: *precision })
+    }
+}
+
+fn on_cpu(scene: &Arc<Scene>, precision: Option<Precision>) -> Result<Box<dyn Engine>, EngineError> {
+    match precision.unwrap_or(Precision::F64) {
+        Precision::F32 => cpu::single(scene),
+        Precision::F64 => cpu::double(scene),
+    }
+}
+
+fn on_gpu(
+    scene: &Arc<Scene>,
+    candidate: &Candidate,
+    precision: Option<Precision>,
+) -> Result<Box<dyn Engine>, EngineError> {
+    let precision = match precision.unwrap_or(Precision::F32) {
+        Precision::F32 => gpu::Precision::Single,
+        Precision::F64 => gpu::Precision::Double,
+    };
+    Ok(Box::new(GpuEngine::new(Arc::clone(scene), Gpu::open(candidate, precision)?)?))
 }

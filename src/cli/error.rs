@@ -25,6 +25,8 @@ pub enum CliError {
     FolderUnreadable { path: PathBuf, source: io::Error },
     #[error("{}: has no file name to call the run by; give --out", path.display())]
     NoName { path: PathBuf },
+    #[error("--adapter names a GPU, and --engine cpu asks for none; leave out one of them")]
+    AdapterOnCpu,
     #[error("cannot write to standard output: {0}")]
     Print(#[source] io::Error),
     #[error("cannot listen for Ctrl-C: {0}")]
@@ -54,6 +56,7 @@ impl CliError {
             | CliError::NotFolder { .. }
             | CliError::FolderUnreadable { .. }
             | CliError::NoName { .. }
+            | CliError::AdapterOnCpu
             | CliError::Scene { .. }
             | CliError::Reference(_)
             | CliError::Engine(EngineError::TooLarge { .. } | EngineError::Adapter(_))

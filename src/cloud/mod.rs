@@ -89,8 +89,20 @@ impl Cloud {
     }
 }
 
-/// Small clouds of every arrangement, for tests.
+/// Small clouds of every arrangement, square and 4 : 1, for tests.
 #[cfg(test)]
 pub(crate) fn test_clouds() -> Vec<Cloud> {
-    Vec::new()
+    let mut clouds = Vec::new();
+    for width in [1.0, 4.0] {
+        for arrangement in ["regular", "jittered", "random"] {
+            let text = format!(
+                "title = 'test'\nfluid.density = 1.0\ntime.end = 1.0\neffects.advection = {{}}\n\
+                 domain = {{ width = {width:?}, height = 1.0 }}\n\
+                 cloud = {{ arrangement = '{arrangement}', spacing = 0.0625 }}\n"
+            );
+            let case = case::Case::from_text(&text, std::path::Path::new("test.toml"), &[]).expect("a case");
+            clouds.push(Cloud::build(&case).expect("a cloud"));
+        }
+    }
+    clouds
 }

@@ -7,7 +7,7 @@ use crate::cpu::operations::conservative::{self, Conservative, Faces};
 use crate::cpu::operations::derivative::{self, Fits};
 use crate::cpu::operations::moments::WeightFunction;
 use crate::cpu::operations::neighbours::CellList;
-use crate::cpu::operations::pressure::Stop;
+use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
@@ -362,7 +362,7 @@ impl<T: Real> CpuEngine<T> {
                 };
                 if self.solve.outcome != Outcome::Converged {
                     self.solve_directly()?;
-                    self.fallbacks += 1;
+                    self.fallbacks += u32::from(self.solve.outcome == Outcome::Converged);
                 }
             }
         }
@@ -371,6 +371,15 @@ impl<T: Real> CpuEngine<T> {
 
     fn conservative(&self) -> Result<Conservative<'_, T>, EngineError> {
         Ok(Conservative { faces: self.faces()?, per_volume: &self.per_volume })
+    }
+
+    fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
+        Ok(collocated::Collocated {
+            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
+            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+            capacity: self.scene.sizes.capacity,
+            row: self.fields.real(Buffer::MatrixRow)?,
+        })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -421,19 +430,19 @@ impl<T: Real> CpuEngine<T> {
                     let matrix = self.conservative()?;
                     bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
                 } else {
-                    let matrix = collocated::Collocated {
-                        neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
-                        count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
-                        capacity: self.scene.sizes.capacity,
-                        row: self.fields.real(Buffer::MatrixRow)?,
-                    };
+                    let matrix = self.collocated()?;
                     bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
                 }
             }
         ))
     }
 
+    /// Leaves everything as it is where the source is not finite: the fields it came from are, and stop the run.
     fn solve_directly(&mut self) -> Result<(), EngineError> {
+        if self.fields.real(Buffer::Source)?.iter().any(|value| !value.is_finite()) {
+            self.solve.outcome = Outcome::BrokeDown;
+            return Ok(());
+        }
         if self.direct.is_none() {
             self.direct = Some(DirectSolver::new(&self.scene, &mut |buffer| self.fields.read(buffer))?);
         }
@@ -441,6 +450,12 @@ impl<T: Real> CpuEngine<T> {
         if let (Some(direct), Data::Real(source)) = (&self.direct, source) {
             let pressure = direct.solve(&source)?;
             self.fields.write(Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
+            let (points, source) = (self.scene.sizes.points, self.fields.real(Buffer::Source)?);
+            let pressure = self.fields.real(Buffer::Pressure)?;
+            self.solve.last_residual = match self.scene.cells() {
+                Some(_) => pressure::residual(&self.conservative()?, points, source, pressure),
+                None => pressure::residual(&self.collocated()?, points, source, pressure),
+            };
             self.solve.outcome = Outcome::Converged;
         }
         Ok(())
@@ -507,7 +522,6 @@ impl<T: Real> Engine for CpuEngine<T> {
 
     fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
         let scene = Arc::clone(&self.scene);
-        let before = self.fallbacks;
         let mut done = Advance::default();
         while done.steps < steps {
             for &operation in scene.plan.drift.iter().chain(&scene.plan.kick) {
@@ -522,7 +536,7 @@ impl<T: Real> Engine for CpuEngine<T> {
                 }
             }
         }
-        done.fallbacks = self.fallbacks - before;
+        done.fallbacks = std::mem::take(&mut self.fallbacks);
         Ok(done)
     }
 

@@ -38,7 +38,7 @@ pub fn solve<T: Real>(
     let load = |values: &[T], i: usize| T::Pack::load(&values[i..]);
     loop {
         let constant = T::Pack::splat(T::from_f64(per_point * total(pressure)));
-        let [square, scale, mut rho] = blocks::sum_over([&mut *residual, &mut *shadow], |start, [r, s]| {
+        let [square, scale, mut rho] = blocks::sum_over([&mut *residual, &mut *shadow], &|start, [r, s]| {
             let mut sums = [T::Pack::zero(); 3];
             for k in (0..r.len()).step_by(T::Pack::LANES) {
                 let i = start + k;
@@ -64,7 +64,7 @@ pub fn solve<T: Real>(
                 break;
             }
             let alpha = T::Pack::splat(T::from_f64(rho / sv));
-            let [] = blocks::sum_over([&mut *stabilised], |start, [s]| {
+            let [] = blocks::sum_over([&mut *stabilised], &|start, [s]| {
                 for k in (0..s.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
                     (load(residual, i) - alpha * load(product, i)).store(&mut s[k..]);
@@ -76,7 +76,7 @@ pub fn solve<T: Real>(
             // A zero here means that the first half of the iteration has already arrived.
             let omega = T::from_f64(if tt > 0.0 { ts / tt } else { 0.0 });
             let omega_pack = T::Pack::splat(omega);
-            let [square, scale, next] = blocks::sum_over([&mut *residual, &mut *pressure], |start, [r, p]| {
+            let [square, scale, next] = blocks::sum_over([&mut *residual, &mut *pressure], &|start, [r, p]| {
                 let mut sums = [T::Pack::zero(); 3];
                 for k in (0..r.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
@@ -101,7 +101,7 @@ pub fn solve<T: Real>(
             }
             let beta = T::Pack::splat(T::from_f64(next / rho * (rho / sv) / omega.to_f64()));
             rho = next;
-            let [] = blocks::sum_over([&mut *direction], |start, [d]| {
+            let [] = blocks::sum_over([&mut *direction], &|start, [d]| {
                 for k in (0..d.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
                     let kept = load(d, k) - omega_pack * load(product, i);
@@ -123,7 +123,7 @@ fn shifted_product<T: Real>(
     scaled: &mut [T],
     out: &mut [T],
 ) {
-    let [sum] = blocks::sum_over([&mut *scaled], |start, [z]| {
+    let [sum] = blocks::sum_over([&mut *scaled], &|start, [z]| {
         let mut sum = T::Pack::zero();
         for k in (0..z.len()).step_by(T::Pack::LANES) {
             let i = start + k;
@@ -134,7 +134,7 @@ fn shifted_product<T: Real>(
         [lanes::<T>(sum)]
     });
     let constant = T::Pack::splat(T::from_f64(per_point * sum));
-    let [] = blocks::sum_over([out], |start, [q]| {
+    let [] = blocks::sum_over([out], &|start, [q]| {
         for k in (0..q.len()).step_by(T::Pack::LANES) {
             let i = start + k;
             within::<T>(matrix.product(i, scaled) + constant, i, points).store(&mut q[k..]);
@@ -145,7 +145,7 @@ fn shifted_product<T: Real>(
 
 fn dots<T: Real, const M: usize>(pairs: [(&[T], &[T]); M]) -> [f64; M] {
     let length = pairs.first().map_or(0, |(a, _)| a.len());
-    blocks::sum_ranges(length, |range| {
+    blocks::sum_ranges(length, &|range| {
         let mut sums = [T::Pack::zero(); M];
         for i in range.step_by(T::Pack::LANES) {
             for (sum, (a, b)) in sums.iter_mut().zip(&pairs) {
@@ -157,7 +157,7 @@ fn dots<T: Real, const M: usize>(pairs: [(&[T], &[T]); M]) -> [f64; M] {
 }
 
 fn total<T: Real>(values: &[T]) -> f64 {
-    let [sum] = blocks::sum_ranges(values.len(), |range| {
+    let [sum] = blocks::sum_ranges(values.len(), &|range| {
         let mut sum = T::Pack::zero();
         for i in range.step_by(T::Pack::LANES) {
             sum += T::Pack::load(&values[i..]);

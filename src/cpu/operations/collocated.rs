@@ -58,7 +58,7 @@ pub fn assemble<T: Real, W: WeightFunction>(
     let slots = fits.capacity;
     let two = T::Pack::splat(T::from_f64(2.0));
     let zero = T::Pack::zero();
-    blocks::for_each_3((row, slots), (scale, 1), (diagonal, 1), |block, row, scale, diagonal| {
+    blocks::for_each_3((row, slots), (scale, 1), (diagonal, 1), &|block, row, scale, diagonal| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
             let factor = fits.factor(i);
@@ -112,7 +112,7 @@ pub fn source<T: Real, W: WeightFunction>(
     [interior, points]: [usize; 2],
     source: &mut [T],
 ) {
-    blocks::for_each(source, 1, |block, out| {
+    blocks::for_each(source, 1, &|block, out| {
         for i in packs::<T>(block, interior) {
             let ([u, v], per) = fits.vector(i, predicted);
             let value = T::Pack::splat(density_per_dt) * per * (u[0] + v[1]);

@@ -32,7 +32,7 @@ pub fn solve<T: Real>(
     let mut monitor = Monitor::new(stop, points);
     loop {
         // r = b - K p, its mean taken out; d = r / D.
-        let [sum] = blocks::sum_over([&mut residual[..]], |start, [r]| {
+        let [sum] = blocks::sum_over([&mut residual[..]], &|start, [r]| {
             let mut sum = T::Pack::zero();
             for k in (0..r.len()).step_by(T::Pack::LANES) {
                 let i = start + k;
@@ -43,7 +43,7 @@ pub fn solve<T: Real>(
             [lanes::<T>(sum)]
         });
         let mean = T::Pack::splat(T::from_f64(sum / points as f64));
-        let [mut rz, square, scale] = blocks::sum_over([&mut *residual, &mut *direction], |start, [r, d]| {
+        let [mut rz, square, scale] = blocks::sum_over([&mut *residual, &mut *direction], &|start, [r, d]| {
             let mut sums = [T::Pack::zero(); 3];
             for k in (0..r.len()).step_by(T::Pack::LANES) {
                 let i = start + k;
@@ -60,7 +60,7 @@ pub fn solve<T: Real>(
             return monitor.info;
         }
         loop {
-            let [dq] = blocks::sum_over([&mut *product], |start, [q]| {
+            let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
                 for k in (0..q.len()).step_by(T::Pack::LANES) {
                     let value = matrix.product(start + k, direction);
@@ -76,7 +76,7 @@ pub fn solve<T: Real>(
             let alpha = T::Pack::splat(T::from_f64(rz / dq));
             // The product is spent: its place takes z = r / D.
             let arrays = [&mut *residual, &mut *pressure, &mut *product];
-            let [next, square, scale] = blocks::sum_over(arrays, |start, [r, p, q]| {
+            let [next, square, scale] = blocks::sum_over(arrays, &|start, [r, p, q]| {
                 let mut sums = [T::Pack::zero(); 3];
                 for k in (0..r.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
@@ -94,7 +94,7 @@ pub fn solve<T: Real>(
             });
             let beta = T::Pack::splat(T::from_f64(next / rz));
             rz = next;
-            let [] = blocks::sum_over([&mut *direction], |start, [d]| {
+            let [] = blocks::sum_over([&mut *direction], &|start, [d]| {
                 for k in (0..d.len()).step_by(T::Pack::LANES) {
                     (T::Pack::load(&product[start + k..]) + beta * T::Pack::load(&d[k..])).store(&mut d[k..]);
                 }

@@ -64,7 +64,7 @@ impl<T: Real> Rows<T> for Conservative<'_, T> {
 /// `scale sum_j w_ij d_ij . (u_i + u_j) / 2`: the volume flux out of every cell, m^2/s, times `scale`.
 pub fn divergence<T: Real>(faces: Faces<T>, position: &[T], velocity: &[T], scale: T, out: &mut [T]) {
     let half = T::Pack::splat(T::from_f64(0.5) * scale);
-    blocks::for_each(out, 1, |block, out| {
+    blocks::for_each(out, 1, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
             let own = T::Pack::load_vectors(&position[2 * i..]);
@@ -93,7 +93,7 @@ pub fn correct_by_adjoint<T: Real>(
     intermediate: &mut [T],
 ) {
     let factor = T::Pack::splat(T::from_f64(-0.5) * dt_per_density);
-    blocks::for_each(intermediate, 2, |block, out| {
+    blocks::for_each(intermediate, 2, &|block, out| {
         for i in packs::<T>(block, end) {
             let own = T::Pack::load_vectors(&position[2 * i..]);
             let own_pressure = T::Pack::load(&pressure[i..]);

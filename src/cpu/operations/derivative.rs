@@ -98,7 +98,7 @@ pub fn viscosity<T: Real, W: WeightFunction>(
     intermediate: &mut [T],
 ) {
     let twice = T::Pack::splat(diffusion + diffusion);
-    blocks::for_each(intermediate, 2, |block, out| {
+    blocks::for_each(intermediate, 2, &|block, out| {
         for i in packs::<T>(block, end) {
             let ([u, v], per) = fits.vector(i, velocity);
             let scale = twice * per * per;
@@ -116,7 +116,7 @@ pub fn correct_by_fit<T: Real, W: WeightFunction>(
     intermediate: &mut [T],
 ) {
     let factor = T::Pack::splat(-dt_per_density);
-    blocks::for_each(intermediate, 2, |block, out| {
+    blocks::for_each(intermediate, 2, &|block, out| {
         for i in packs::<T>(block, end) {
             let (a, per) = fits.scalar(i, pressure);
             let scale = factor * per;
@@ -127,7 +127,7 @@ pub fn correct_by_fit<T: Real, W: WeightFunction>(
 
 /// The five coefficients of the fits of u and of v at every point, scaled by its support radius.
 pub fn fit_velocity<T: Real, W: WeightFunction>(fits: Fits<T, W>, velocity: &[T], coefficients: &mut [T]) {
-    blocks::for_each(coefficients, 2 * COEFFICIENTS, |block, out| {
+    blocks::for_each(coefficients, 2 * COEFFICIENTS, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let (fitted, _) = fits.vector(block * BLOCK + first, velocity);
             for k in 0..COEFFICIENTS {
@@ -145,7 +145,7 @@ pub fn fitted_divergence<T: Real, W: WeightFunction>(
     end: usize,
     divergence: &mut [T],
 ) {
-    blocks::for_each(divergence, 1, |block, out| {
+    blocks::for_each(divergence, 1, &|block, out| {
         for i in packs::<T>(block, end) {
             let ([u, v], per) = fits.vector(i, velocity);
             let value = per * (u[0] + v[1]);

@@ -19,7 +19,7 @@ pub fn factorise<T: Real>(
     factor: &mut [T],
     rung: &mut [u32],
 ) {
-    blocks::for_each_2((factor, FACTOR), (rung, 1), |block, factor, rung| {
+    blocks::for_each_2((factor, FACTOR), (rung, 1), &|block, factor, rung| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
             let stencil = Stencil::new(position, support, neighbours, count, capacity, i);

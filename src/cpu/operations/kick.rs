@@ -13,7 +13,7 @@ use crate::step::PRESSURE_RELAXATION;
 
 /// `u_m ~ u + kick - g`, in the middle of the kick, with the pressure's kick `g` of the last steps; the kick is then zero.
 pub fn estimate_middle<T: Real>(velocity: &[T], pressure_kick: &[T], middle: &mut [T], kick: &mut [T]) {
-    blocks::for_each_2((middle, 2), (kick, 2), |block, middle, kick| {
+    blocks::for_each_2((middle, 2), (kick, 2), &|block, middle, kick| {
         let first = 2 * block * BLOCK;
         for (k, (middle, kick)) in middle.iter_mut().zip(kick).enumerate() {
             *middle = velocity[first + k] + *kick - pressure_kick[first + k];
@@ -24,7 +24,7 @@ pub fn estimate_middle<T: Real>(velocity: &[T], pressure_kick: &[T], middle: &mu
 
 /// `u* = u + kick`.
 pub fn predict<T: Real>(velocity: &[T], kick: &[T], predicted: &mut [T]) {
-    blocks::for_each(predicted, 2, |block, out| {
+    blocks::for_each(predicted, 2, &|block, out| {
         let first = 2 * block * BLOCK;
         for (k, out) in out.iter_mut().enumerate() {
             *out = velocity[first + k] + kick[first + k];
@@ -44,7 +44,7 @@ pub fn reflect<T: Real>(
     reflected: &mut [T],
 ) {
     let share = T::from_f64(PRESSURE_RELAXATION);
-    blocks::for_each_2((pressure_kick, 2), (reflected, 2), |block, pressure_kick, reflected| {
+    blocks::for_each_2((pressure_kick, 2), (reflected, 2), &|block, pressure_kick, reflected| {
         let first = 2 * block * BLOCK;
         for (k, (mean, out)) in pressure_kick.iter_mut().zip(reflected).enumerate() {
             let u_m = middle[first + k];

@@ -7,7 +7,7 @@ use crate::engine::Measurement;
 /// Kinetic energy `sum V |u|^2 / 2`, largest speed, and largest rate of change since `reported`, which becomes `velocity`.
 pub fn speeds<T: Real>(velocity: &[T], volume: &[T], reported: &mut [T], points: usize, elapsed: f64) -> Measurement {
     let length = volume.len();
-    let [kinetic_energy] = blocks::sum_ranges(length, |range| {
+    let [kinetic_energy] = blocks::sum_ranges(length, &|range| {
         let term = |i: usize| {
             let (u, v) = (velocity[2 * i].to_f64(), velocity[2 * i + 1].to_f64());
             0.5 * volume[i].to_f64() * (u * u + v * v)
@@ -21,7 +21,7 @@ pub fn speeds<T: Real>(velocity: &[T], volume: &[T], reported: &mut [T], points:
         most[0] = most[0].max(norm(u, v));
         most[1] = most[1].max(norm(u - reported[2 * i], v - reported[2 * i + 1]));
     }
-    blocks::for_each(reported, 2, |block, out| {
+    blocks::for_each(reported, 2, &|block, out| {
         let first = 2 * block * BLOCK;
         out.copy_from_slice(&velocity[first..first + out.len()]);
     });
@@ -31,12 +31,12 @@ pub fn speeds<T: Real>(velocity: &[T], volume: &[T], reported: &mut [T], points:
 /// Root mean square over the points of `flux / volume`.
 pub fn rms_density<T: Real>(flux: &[T], volume: &[T], points: usize) -> f64 {
     let [square] =
-        blocks::sum_ranges(points, |range| [range.map(|i| (flux[i].to_f64() / volume[i].to_f64()).powi(2)).sum()]);
+        blocks::sum_ranges(points, &|range| [range.map(|i| (flux[i].to_f64() / volume[i].to_f64()).powi(2)).sum()]);
     (square / points as f64).sqrt()
 }
 
 /// Root mean square over the points.
 pub fn rms<T: Real>(values: &[T], points: usize) -> f64 {
-    let [square] = blocks::sum_ranges(points, |range| [range.map(|i| values[i].to_f64().powi(2)).sum()]);
+    let [square] = blocks::sum_ranges(points, &|range| [range.map(|i| values[i].to_f64().powi(2)).sum()]);
     (square / points as f64).sqrt()
 }

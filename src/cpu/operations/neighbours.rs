@@ -71,7 +71,7 @@ pub fn find_neighbours<T: Real>(
     neighbours: &mut [u32],
     count: &mut [u32],
 ) -> usize {
-    blocks::for_each_2((neighbours, capacity), (&mut *count, 1), |block, neighbours, count| {
+    blocks::for_each_2((neighbours, capacity), (&mut *count, 1), &|block, neighbours, count| {
         for lane in 0..BLOCK {
             let i = block * BLOCK + lane;
             let own = i.min(points - 1);

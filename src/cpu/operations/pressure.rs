@@ -1,5 +1,6 @@
 //! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
 
+use crate::cpu::blocks;
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
 
@@ -99,6 +100,24 @@ impl Monitor {
         }
         Verdict::Check
     }
+}
+
+/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean, in the unit that the tolerance is in.
+pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, source: &[T], pressure: &[T]) -> f64 {
+    let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
+    let [sum] = blocks::sum_ranges(source.len(), &|range| {
+        let packs = range.step_by(T::Pack::LANES);
+        [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
+    });
+    let mean = T::Pack::splat(T::from_f64(sum / points as f64));
+    let [square] = blocks::sum_ranges(source.len(), &|range| {
+        let mut sums = [T::Pack::zero(); 2];
+        for i in range.step_by(T::Pack::LANES) {
+            matrix.measure(i, within::<T>(left(i) - mean, i, points), T::Pack::zero(), &mut sums);
+        }
+        [lanes::<T>(sums[0])]
+    });
+    (square / points as f64).sqrt()
 }
 
 /// Sum over the lanes.

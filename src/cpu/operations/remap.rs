@@ -21,10 +21,15 @@ pub fn remap_departure<T: Real>(
     velocity: &mut [T],
 ) {
     let evaluate = |j, place| evaluate(position, support, values, coefficients, j, place);
-    blocks::for_each(velocity, 2, |block, out| {
+    blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
-            let inside = |x: T, length: T| x.max(T::zero()).min(length);
+            // Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that of a corner.
+            let inside = |x: T, length: T| match x {
+                low if low < T::zero() => T::zero(),
+                high if high > length => length,
+                x => x,
+            };
             let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
             let own = [values[2 * i], values[2 * i + 1]];
             let from = back(evaluate(i, back(own)));
@@ -95,7 +100,7 @@ fn nearest<T: Real>(position: &[T], around: Around, place: [T; 2], from: usize) 
 
 /// Moves the interior points with the flow: `r' = r0 + dt u'`; walls stand.
 pub fn move_points<T: Real>(standing: &[T], velocity: &[T], dt: T, interior: usize, moved: &mut [T]) {
-    blocks::for_each(moved, 2, |block, out| {
+    blocks::for_each(moved, 2, &|block, out| {
         let first = 2 * block * BLOCK;
         for (k, place) in out.iter_mut().enumerate() {
             let shift = if first + k < 2 * interior { dt * velocity[first + k] } else { T::zero() };
@@ -114,7 +119,7 @@ pub fn remap_forward<T: Real>(
     interior: usize,
     velocity: &mut [T],
 ) {
-    blocks::for_each(velocity, 2, |block, out| {
+    blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
             let place = [standing[2 * i], standing[2 * i + 1]];
             let value = evaluate(moved, support, values, coefficients, i, place);

@@ -1,0 +1,22 @@
+//! The numerics by their properties: exactness, orders of convergence, conservation, symmetry, repeatability.
+
+#[path = "../support/bench.rs"]
+mod bench;
+#[path = "../support/cases.rs"]
+mod cases;
+#[path = "../support/random.rs"]
+mod random;
+
+mod clouds;
+mod energy;
+mod fallback;
+mod ladder;
+mod least_squares;
+mod matrix;
+mod memory;
+mod options;
+mod poisson;
+mod remap;
+mod repeatability;
+mod runs;
+mod voronoi;

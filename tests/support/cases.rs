@@ -1,0 +1,35 @@
+//! The lid-driven cavity as a text, from which every test makes its case as `--set` would.
+
+use std::path::Path;
+
+use stillpoint::case::Case;
+
+const CAVITY: &str = r#"
+title = "Cavity"
+domain = { width = 1.0, height = 1.0 }
+cloud = { arrangement = "regular", spacing = 0.05 }
+fluid = { density = 1.0 }
+boundaries = { top = { velocity = [1.0, 0.0] } }
+effects = { viscosity = { kinematic = 0.01 }, pressure = {}, advection = {} }
+time = { end = 1.0 }
+output = { pictures = false }
+"#;
+
+/// What makes each arrangement of the cavity, by name. Random points take a wider radius: they leave gaps.
+pub const ARRANGEMENTS: [(&str, &[&str]); 3] = [
+    ("regular", &[]),
+    ("jittered", &["cloud.arrangement=jittered", "cloud.jitter=0.45"]),
+    ("random", &["cloud.arrangement=random", "method.radius=2.8"]),
+];
+
+/// The cavity at Re 100, on 21 x 21 regular points unless `overrides` (`key=value`) say otherwise.
+pub fn cavity(overrides: &[&str]) -> Case {
+    let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+    Case::from_text(CAVITY, Path::new("cavity.toml"), &overrides).expect("a case")
+}
+
+/// The same with `n` spacings to a metre.
+pub fn cavity_of(n: usize, overrides: &[&str]) -> Case {
+    let spacing = format!("cloud.spacing={:e}", 1.0 / n as f64);
+    cavity(&[overrides, &[spacing.as_str()]].concat())
+}

@@ -1,0 +1,3 @@
+//! Whole flows against published values: case, quantity, published value, tolerance, source.
+
+mod cavity;
