@@ -4,6 +4,7 @@
 // Continuous: Du/Dt along the path of a fluid point. Discrete: u(r0) = u'(r0 - dt u'). Units: m/s.
 
 #import evaluate
+#import finite
 
 fn evaluate(j: u32, place: vector) -> vector {
     return evaluate_offset(j, place - position[j], real(1.0) / support[j]);
@@ -39,8 +40,11 @@ fn nearest(place: vector, start: u32) -> u32 {
     return here;
 }
 
+// What is no number stays none: a lost velocity must be seen, and min and max may replace it by that of a corner.
 fn back(here: vector, velocity: vector) -> vector {
-    return min(max(here - clock[CLOCK_DT] * velocity, vector()), vector(WIDTH, HEIGHT));
+    let place = here - clock[CLOCK_DT] * velocity;
+    let inside = min(max(place, vector()), vector(WIDTH, HEIGHT));
+    return select(place, inside, finite(place.x) && finite(place.y));
 }
 
 @compute @workgroup_size(GROUP)
