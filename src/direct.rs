@@ -21,7 +21,7 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
-    General { lu: Lu<usize, f64>, row: Vec<(usize, f64)>, ones: Vec<f64> },
+    General { lu: Lu<usize, f64>, rows: Vec<Vec<(usize, f64)>>, ones: Vec<f64> },
 }
 
 impl DirectSolver {
@@ -30,8 +30,7 @@ impl DirectSolver {
         if let Some(cells) = scene.cells() {
             return Self::conservative(cells);
         }
-        let rows = collocated_rows(scene, read)?;
-        Self::collocated(&rows)
+        Self::collocated(collocated_rows(scene, read)?)
     }
 
     /// The matrix `K` of the conservative form.
@@ -48,7 +47,7 @@ impl DirectSolver {
     }
 
     /// A matrix whose rows sum to zero, row by row: column and value.
-    pub fn collocated(rows: &[Vec<(usize, f64)>]) -> Result<Self, EngineError> {
+    pub fn collocated(rows: Vec<Vec<(usize, f64)>>) -> Result<Self, EngineError> {
         // Any interior row will do; the first is one.
         let entries: Vec<_> =
             std::iter::once(Triplet::new(0, 0, 1.0))
@@ -60,7 +59,7 @@ impl DirectSolver {
         let mut ones = vec![1.0; rows.len()];
         ones[0] = 0.0;
         let ones = solve(&lu, &ones);
-        Ok(Self(Factor::General { lu, row: rows[0].clone(), ones }))
+        Ok(Self(Factor::General { lu, rows, ones }))
     }
 
     /// The pressure of mean zero for a right side of one entry a point, Pa.
@@ -74,11 +73,11 @@ impl DirectSolver {
                 pressure.push(0.0);
                 pressure
             }
-            Factor::General { lu, row, ones } => {
+            Factor::General { lu, rows, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
                 let pressure = solve(lu, &right);
-                let along = |x: &[f64]| row.iter().map(|&(column, value)| value * x[column]).sum::<f64>();
+                let along = |x: &[f64]| product(&rows[0], x);
                 let multiplier = (source[0] - along(&pressure)) / (1.0 - along(ones));
                 pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
             }
@@ -91,6 +90,31 @@ impl DirectSolver {
             Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned()))
         }
     }
+
+    /// Root mean square of what a pressure leaves of the source, `b - A p` less its mean, as the iterative solvers measure
+    /// it: over the volume in the conservative form.
+    pub fn residual(&self, scene: &Scene, source: &[f64], pressure: &[f64]) -> f64 {
+        let of = |point: usize| match (&self.0, scene.cells()) {
+            (Factor::General { rows, .. }, _) => source[point] - product(&rows[point], pressure),
+            (_, Some(cells)) => {
+                let own = pressure[point];
+                source[point] - cells.faces(point).map(|(other, weight)| weight * (own - pressure[other])).sum::<f64>()
+            }
+            _ => source[point],
+        };
+        let mut left: Vec<f64> = (0..scene.sizes.points).map(of).collect();
+        let points = left.len() as f64;
+        let mean = left.iter().sum::<f64>() / points;
+        left.iter_mut().for_each(|r| *r -= mean);
+        if let Some(cells) = scene.cells() {
+            left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);
+        }
+        (left.iter().map(|r| r * r).sum::<f64>() / points).sqrt()
+    }
+}
+
+fn product(row: &[(usize, f64)], x: &[f64]) -> f64 {
+    row.iter().map(|&(column, value)| value * x[column]).sum()
 }
 
 /// The rows of the collocated matrix, diagonal included, from the arrays of an engine.

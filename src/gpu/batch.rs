@@ -53,6 +53,17 @@ impl Report {
         Halted::ALL.get(self.word(Word::Halted) as usize).copied().unwrap_or(Halted::Not)
     }
 
+    /// Notes that the pressure was solved for, and how well, by other means.
+    pub fn solved(&mut self, residual: f64) {
+        self.words[Word::Outcome as usize] = Ended::Converged as u32;
+        self.scalars[Scalar::LastResidual as usize] = residual;
+    }
+
+    /// The words and the scalars, to be put back.
+    pub fn state(&self) -> (&[u32], &[f64]) {
+        (&self.words, &self.scalars)
+    }
+
     pub fn solve_info(&self) -> SolveInfo {
         let outcome = self.word(Word::Outcome);
         SolveInfo {

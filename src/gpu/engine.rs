@@ -48,6 +48,11 @@ impl GpuEngine {
         &self.gpu
     }
 
+    /// Bytes that the arrays take on the GPU: the plan's, and the engine's own.
+    pub fn allocated_bytes(&self) -> u64 {
+        self.memory.bytes()
+    }
+
     /// Lets the next batch hold this many iterations for each solve, and returns how many it was going to.
     #[cfg(test)]
     pub(super) fn hold_iterations(&mut self, iterations: u32) -> u32 {
@@ -77,7 +82,6 @@ impl GpuEngine {
         let mut cursor = Cursor::default();
         let mut pace = self.pace;
         let mut done = Advance::default();
-        let before = self.fallbacks;
         self.batch(step, counted).reset()?;
         loop {
             let rest = steps - done.steps;
@@ -85,26 +89,29 @@ impl GpuEngine {
             done.steps = report.word(Word::Steps);
             done.iterations = u64::from(report.word(Word::TotalIterations));
             self.solve = report.solve_info();
-            match report.halted() {
+            let halted = report.halted();
+            match halted {
                 Halted::ForDirectSolve => {
-                    done.trouble = self.solve_directly()?;
+                    done.trouble = self.solve_directly(report)?;
                     // Trouble ends the step that it was met in.
                     done.steps += u32::from(done.trouble.is_some());
-                    self.fallbacks += u32::from(!step.contains(&Operation::DirectSolve));
+                    let fallback = done.trouble.is_none() && !step.contains(&Operation::DirectSolve);
+                    self.fallbacks += u32::from(fallback);
                 }
                 Halted::ByNonFinite => done.trouble = trouble(&report),
                 Halted::Not | Halted::InSolve | Halted::ByOverflow => {}
             }
+            // Of a single operation nothing is left once it came to rest.
             let over =
-                if counted { done.steps >= steps } else { cursor.operation >= step.len() || at_rest(&cursor, &report) };
+                if counted { done.steps >= steps } else { cursor.operation >= step.len() || halted == Halted::Not };
             if over || done.trouble.is_some() {
                 break;
             }
         }
         if counted {
             self.pace = pace;
+            done.fallbacks = std::mem::take(&mut self.fallbacks);
         }
-        done.fallbacks = self.fallbacks - before;
         Ok(done)
     }
 
@@ -112,20 +119,30 @@ impl GpuEngine {
         Batch { gpu: &self.gpu, scene: &self.scene, memory: &self.memory, program: &self.program, step, counted }
     }
 
-    /// Solves the pressure equation on the host; a source that is not finite is trouble instead.
-    fn solve_directly(&mut self) -> Result<Option<NonFinite>, EngineError> {
+    /// Solves the pressure equation on the host; a source that is not finite is trouble instead. `report` is that of the
+    /// batch that waits for it, and learns how the solve ended.
+    fn solve_directly(&mut self, mut report: Report) -> Result<Option<NonFinite>, EngineError> {
         let Data::Real(source) = self.read(Buffer::Source)? else { return Err(EngineError::Absent(Buffer::Source)) };
         if source.iter().any(|value| !value.is_finite()) {
-            return self.first_non_finite(Buffer::Projected, 2);
+            self.solve.outcome = Outcome::BrokeDown;
+            return match self.first_non_finite(Buffer::Projected, 2)? {
+                Some(cause) => Ok(Some(cause)),
+                None => self.first_non_finite(Buffer::Source, 1),
+            };
         }
         let direct = match self.direct.take() {
             Some(direct) => direct,
             None => DirectSolver::new(&self.scene, &mut |buffer| self.memory.read(&self.gpu, buffer))?,
         };
         let pressure = direct.solve(&source)?;
-        self.direct = Some(direct);
         self.memory.write(&self.gpu, Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
-        self.solve.outcome = Outcome::Converged;
+        // As it is stored: rounded.
+        if let Data::Real(pressure) = self.read(Buffer::Pressure)? {
+            report.solved(direct.residual(&self.scene, &source, &pressure));
+        }
+        self.direct = Some(direct);
+        self.memory.write_state(&self.gpu, report.state())?;
+        self.solve = report.solve_info();
         Ok(None)
     }
 
@@ -135,11 +152,6 @@ impl GpuEngine {
         let entry = values.iter().position(|value| !value.is_finite());
         Ok(entry.map(|entry| NonFinite { buffer, point: entry / width }))
     }
-}
-
-/// Nothing is left of a single operation.
-fn at_rest(cursor: &Cursor, report: &Report) -> bool {
-    cursor.operation == 0 && report.halted() == Halted::Not
 }
 
 fn trouble(report: &Report) -> Option<NonFinite> {

@@ -135,6 +135,17 @@ impl Memory {
         Ok((words(state), self.reals(scalars)))
     }
 
+    /// Puts the state of the batch and the scalars back.
+    pub fn write_state(&self, gpu: &Gpu, (words, scalars): (&[u32], &[f64])) -> Result<(), EngineError> {
+        self.upload_words(gpu, self.own(Own::Control), words)?;
+        self.upload(gpu, self.own(Own::Scalars), scalars)
+    }
+
+    /// Bytes of all arrays, the engine's own among them.
+    pub fn bytes(&self) -> u64 {
+        self.fields.values().chain(&self.own).map(GpuBuffer::size).sum()
+    }
+
     fn reals(&self, bytes: &[u8]) -> Vec<f64> {
         match self.precision {
             Precision::Single => {
