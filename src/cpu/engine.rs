@@ -461,10 +461,11 @@ impl<T: Real> CpuEngine<T> {
         Ok(())
     }
 
-    /// The first entry that is not a number among the fields that carry the flow from step to step.
+    /// The first entry that is not a number among the fields that carry the flow from step to step, and the source of the
+    /// pressure: one that overflows leaves the pressure as it was.
     fn non_finite(&self) -> Result<Option<NonFinite>, EngineError> {
         let points = self.scene.sizes.points;
-        for buffer in [Buffer::Projected, Buffer::Pressure] {
+        for buffer in [Buffer::Projected, Buffer::Pressure, Buffer::Source] {
             let Ok(values) = self.fields.real(buffer) else { continue };
             let width = values.len() / self.scene.padded();
             if let Some(entry) = values[..points * width].iter().position(|value| !value.is_finite()) {
