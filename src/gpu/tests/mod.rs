@@ -1,14 +1,17 @@
 //! The kernels: their sources, and what they compute.
 
+#[path = "../../../tests/support/adapter.rs"]
+mod needed;
 mod runs;
 mod sources;
 
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Gpu, GpuEngine, Precision, adapter};
+use super::adapter::{self, Candidate};
+use super::{Gpu, GpuEngine, Precision};
 use crate::case::Case;
-use crate::engine::{Engine, EngineError};
+use crate::engine::Engine;
 use crate::scene::Scene;
 
 /// A small cavity; together the changes below use every operation.
@@ -70,16 +73,14 @@ fn forceless_scene() -> Scene {
     scene_of(&CAVITY.replace("[effects.pressure]\n", ""), &[])
 }
 
-/// An engine as it is made; `None`, said aloud, where there is no adapter.
+/// The adapter that the tests run on; `None` where those that need one are skipped.
+fn candidate() -> Option<Candidate> {
+    (!needed::skipped(&[include_str!("runs.rs")])).then(|| needed::required(adapter::choose(None)))
+}
+
+/// An engine as it is made.
 fn made(scene: &Arc<Scene>, precision: Precision) -> Option<GpuEngine> {
-    let candidate = match adapter::choose(None) {
-        Ok(candidate) => candidate,
-        Err(EngineError::Adapter(reason)) => {
-            eprintln!("not tested: {reason}");
-            return None;
-        }
-        Err(error) => panic!("{error}"),
-    };
+    let candidate = candidate()?;
     let gpu = Gpu::open(&candidate, precision).expect("the adapter opens");
     Some(GpuEngine::new(Arc::clone(scene), gpu).expect("the kernels compile"))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CHANGES, Precision, adapter, engine, forceless_scene, made, scene, still_scene};
+use super::{CHANGES, Precision, candidate, engine, forceless_scene, made, scene, still_scene};
 use crate::cpu::CpuEngine;
 use crate::engine::{Data, Engine, EngineError};
 use crate::scene::Scene;
@@ -82,7 +82,7 @@ fn steps_agree_with_the_cpu_to_single_precision() {
 
 #[test]
 fn steps_agree_with_the_cpu_to_double_precision() {
-    if adapter::choose(None).is_ok_and(|candidate| candidate.double_precision) {
+    if candidate().is_some_and(|candidate| candidate.double_precision) {
         steps_agree(Precision::Double, "effects.pressure.tolerance=1e-11", 1e-8, 1e-8);
     }
 }
