@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::DVec2;
 use stillpoint::case::Case;
 use stillpoint::cpu;
-use stillpoint::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, SolveInfo};
+use stillpoint::engine::{Advance, Data};
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Diagnostics, Observer, Outcome, SimulationError, Stop, simulate};
-use stillpoint::step::{Buffer, Operation};
+use stillpoint::step::Buffer;
 
 use crate::bench::most;
 use crate::cases::{cavity, cavity_of};
+use crate::spoiled::Spoiled;
 
 /// Keeps the rows; asks for an end after so many.
 struct Watch {
@@ -41,54 +42,6 @@ fn run(case: &Case) -> (Outcome, Vec<Diagnostics>) {
     watched(case, usize::MAX)
 }
 
-/// An engine that spoils one number of the velocity after some steps.
-struct Spoiled {
-    inner: Box<dyn Engine>,
-    scene: Arc<Scene>,
-    steps: u32,
-    after: u32,
-    point: usize,
-}
-
-impl Engine for Spoiled {
-    fn info(&self) -> EngineInfo {
-        self.inner.info()
-    }
-
-    fn write(&mut self, buffer: Buffer, data: &Data) -> Result<(), EngineError> {
-        self.inner.write(buffer, data)
-    }
-
-    fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError> {
-        self.inner.read(buffer)
-    }
-
-    fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
-        self.inner.apply(operation, clock)
-    }
-
-    fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
-        if self.steps <= self.after && self.steps + steps > self.after {
-            let moving = self.scene.plan.moving();
-            if let Data::Real(mut values) = self.inner.read(moving)? {
-                values[2 * self.point] = f64::NAN;
-                self.inner.write(moving, &Data::Real(values))?;
-            }
-        }
-        let done = self.inner.advance(steps, clock)?;
-        self.steps += done.steps;
-        Ok(done)
-    }
-
-    fn solve_info(&self) -> SolveInfo {
-        self.inner.solve_info()
-    }
-
-    fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {
-        self.inner.measure(elapsed)
-    }
-}
-
 #[test]
 fn a_number_that_is_none_stops_the_run_names_its_place_and_keeps_the_last_good_state() {
     for splitting in ["time.splitting=reflection", "time.splitting=projection"] {
@@ -102,7 +55,7 @@ fn a_number_that_is_none_stops_the_run_names_its_place_and_keeps_the_last_good_s
             let name = format!("{splitting}, pressure {pressure}");
             let scene = Arc::new(Scene::build(&case).expect("a scene"));
             let inner = cpu::double(&scene).expect("an engine");
-            let mut engine = Spoiled { inner, scene: Arc::clone(&scene), steps: 0, after: 60, point: 123 };
+            let mut engine = Spoiled::new(inner, scene.plan.moving(), 123, 60);
             let mut watch = Watch { rows: Vec::new(), enough: usize::MAX };
             let outcome = simulate(&scene, &mut engine, &mut watch).unwrap_or_else(|error| panic!("{name}: {error}"));
             let Stop::NonFinite { field, place, step } = outcome.stop else { panic!("{name}: {:?}", outcome.stop) };
