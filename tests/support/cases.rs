@@ -16,6 +16,7 @@ output = { pictures = false }
 "#;
 
 /// What makes each arrangement of the cavity, by name. Random points take a wider radius: they leave gaps.
+#[allow(dead_code, reason = "not every file of tests goes through them")]
 pub const ARRANGEMENTS: [(&str, &[&str]); 3] = [
     ("regular", &[]),
     ("jittered", &["cloud.arrangement=jittered", "cloud.jitter=0.45"]),

@@ -1,0 +1,66 @@
+//! Every operation there is has a scene, a shader and a CPU function of its name.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use stillpoint::step::{Operation, Points, Stage};
+
+use crate::scenes;
+
+/// Every operation. A new one does not compile here until it stands in the list that `next` walks.
+pub fn all() -> Vec<Operation> {
+    std::iter::successors(Some(Operation::BuildCells(Points::Standing)), |&operation| next(operation)).collect()
+}
+
+fn next(operation: Operation) -> Option<Operation> {
+    use Operation::*;
+    use Points::{Moved, Standing};
+    Some(match operation {
+        BuildCells(Standing) => BuildCells(Moved),
+        BuildCells(Moved) => FindNeighbours(Standing),
+        FindNeighbours(Standing) => FindNeighbours(Moved),
+        FindNeighbours(Moved) => Factorise(Standing),
+        Factorise(Standing) => Factorise(Moved),
+        Factorise(Moved) => WidenSupport(Standing),
+        WidenSupport(Standing) => WidenSupport(Moved),
+        WidenSupport(Moved) => AssembleCollocated,
+        AssembleCollocated => FitVelocity(Standing),
+        FitVelocity(Standing) => FitVelocity(Moved),
+        FitVelocity(Moved) => RemapDeparture,
+        RemapDeparture => MovePoints,
+        MovePoints => RemapForward,
+        RemapForward => KeepVelocity,
+        KeepVelocity => ClearKick,
+        ClearKick => EstimateMiddle,
+        EstimateMiddle => Viscosity(Stage::Start),
+        Viscosity(Stage::Start) => Viscosity(Stage::Middle),
+        Viscosity(Stage::Middle) => Predict,
+        Predict => Divergence,
+        Divergence => CollocatedSource,
+        CollocatedSource => ConjugateGradient,
+        ConjugateGradient => Bicgstab,
+        Bicgstab => DirectSolve,
+        DirectSolve => CorrectByFit,
+        CorrectByFit => CorrectByAdjoint,
+        CorrectByAdjoint => HoldWalls,
+        HoldWalls => Reflect,
+        Reflect => return None,
+    })
+}
+
+#[test]
+fn every_operation_has_a_scene() {
+    let used: BTreeSet<Operation> =
+        scenes::all().iter().flat_map(|(_, scene)| scene.plan.operations().collect::<Vec<_>>()).collect();
+    assert_eq!(used, all().into_iter().collect());
+}
+
+/// That each engine does something by it is seen where the engines are compared.
+#[test]
+fn every_operation_has_a_shader_of_its_name() {
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    for operation in all() {
+        let (file, folder) = (shaders.join(operation.name()).with_extension("wgsl"), shaders.join(operation.name()));
+        assert!(file.is_file() != folder.is_dir(), "{operation:?}: shaders/{}.wgsl or a folder", operation.name());
+    }
+}

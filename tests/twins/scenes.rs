@@ -1,0 +1,102 @@
+//! Small scenes which between them hold every operation, every choice of the case file that reaches an engine, and every rung
+//! of the ladder.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use stillpoint::cloud::Cloud;
+use stillpoint::scene::Scene;
+
+use crate::cases::cavity_of;
+
+/// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
+const ACROSS: usize = 16;
+
+/// What the solves of the scenes are asked for. f32 cannot reach it, and stops where rounding stops it; so what CPU f32
+/// leaves against CPU f64 is what rounding leaves, and not where a solve chose to stop.
+const TIGHT: &str = "effects.pressure.tolerance=1e-9";
+
+/// What each scene changes in the cavity, by name.
+const CHANGES: [(&str, &[&str]); 8] = [
+    ("regular, conservative, departure, reflection, fit, cg", &[]),
+    (
+        "jittered, adjoint, cg, no weight",
+        &["cloud.arrangement=jittered", "cloud.jitter=0.4", "effects.pressure.gradient=adjoint", "method.weight=none"],
+    ),
+    (
+        "random, projection, bicgstab, quadratic weight",
+        &[
+            "cloud.arrangement=random",
+            "method.radius=2.8",
+            "time.splitting=projection",
+            "effects.pressure.solver=bicgstab",
+            "method.weight=quadratic",
+        ],
+    ),
+    (
+        "jittered, conservative, forward, projection",
+        &["cloud.arrangement=jittered", "effects.advection.remap=forward", "time.splitting=projection"],
+    ),
+    (
+        "regular, collocated, departure, reflection, bicgstab",
+        &["effects.pressure.form=collocated", "fluid.density=1000.0"],
+    ),
+    (
+        "jittered, collocated, forward, projection",
+        &[
+            "cloud.arrangement=jittered",
+            "effects.pressure.form=collocated",
+            "effects.advection.remap=forward",
+            "time.splitting=projection",
+        ],
+    ),
+    (
+        "random, collocated, direct",
+        &[
+            "cloud.arrangement=random",
+            "method.radius=2.8",
+            "effects.pressure.form=collocated",
+            "effects.pressure.solver=direct",
+        ],
+    ),
+    ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
+];
+
+/// Every scene, with its name.
+pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
+    let mut scenes: Vec<_> = CHANGES.iter().map(|&(name, changes)| (name, Arc::new(of(changes)))).collect();
+    let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
+    still.effects.advection = None;
+    scenes.push(("no advection", Arc::new(Scene::build(&still).expect("a scene"))));
+    scenes.push(("rows of points", Arc::new(ladder())));
+    // The sums over workgroups take more than one round, and more than one tile of cells.
+    let many = cavity_of(144, &["cloud.arrangement=jittered", TIGHT]);
+    scenes.push(("many points", Arc::new(Scene::build(&many).expect("a scene"))));
+    scenes
+}
+
+/// The cavity on 17 x 17 points with `changes`.
+pub fn of(changes: &[&str]) -> Scene {
+    Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
+}
+
+/// Groups of points out of each other's sight whose fits stand on every rung of the ladder: a dense patch that makes room for
+/// long lists; one row; two rows; two rows with a third that only a wider radius reaches. No pressure, no walls.
+fn ladder() -> Scene {
+    let rows = |corner: DVec2, across: &[f64]| -> Vec<DVec2> {
+        across.iter().flat_map(|&y| (0..13).map(move |k| corner + DVec2::new(0.5 * f64::from(k), y))).collect()
+    };
+    let dense: Vec<f64> = (0..13).map(|k| 0.5 * f64::from(k)).collect();
+    let position = [
+        rows(DVec2::new(2.0, 2.0), &dense),
+        rows(DVec2::new(22.0, 2.0), &[0.0]),
+        rows(DVec2::new(2.0, 22.0), &[0.0, 0.5]),
+        rows(DVec2::new(22.0, 22.0), &[0.0, 0.5, 3.0]),
+    ]
+    .concat();
+    let (interior, size) = (position.len(), DVec2::splat(40.0));
+    let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size };
+    let mut case = cavity_of(1, &["domain.width=40.0", "domain.height=40.0"]);
+    case.effects.pressure = None;
+    Scene::with_cloud(&case, cloud).expect("a scene")
+}
