@@ -7,7 +7,7 @@ use stillpoint::cpu::operations::pressure::Stop;
 use stillpoint::direct::DirectSolver;
 use stillpoint::engine::{Clock, Data, Engine, Outcome};
 use stillpoint::scene::Scene;
-use stillpoint::step::{Buffer, Operation};
+use stillpoint::step::{Buffer, Operation, Points, Rung};
 
 use crate::compare::{Difference, FACTOR, Results, allowed, compare, entries};
 use crate::engines::{Engines, State, candidate, read, reals, rounded, write};
@@ -116,6 +116,7 @@ fn every_operation_of_every_scene_agrees_to_rounding() {
     let Some(candidate) = candidate() else { return };
     // Operations that changed something: of each engine.
     let mut worked: [BTreeSet<Operation>; 3] = Default::default();
+    let mut rungs = BTreeSet::new();
     let mut failures = Vec::new();
     for (name, scene) in scenes::all() {
         let mut engines = Engines::new(&candidate, &scene);
@@ -126,6 +127,11 @@ fn every_operation_of_every_scene_agrees_to_rounding() {
                     worked.insert(done.operation);
                 }
             }
+            if let Some(Data::Index(of)) = done.after[0].get(&Buffer::Rung(Points::Standing))
+                && done.operation == Operation::WidenSupport(Points::Standing)
+            {
+                rungs.extend(of[..scene.sizes.points].iter().copied());
+            }
             if iterates(done.operation) {
                 residuals_agree(name, done);
             }
@@ -134,6 +140,7 @@ fn every_operation_of_every_scene_agrees_to_rounding() {
     assert!(failures.is_empty(), "{} arrays differ:\n{}", failures.len(), failures.join("\n"));
     let all: BTreeSet<Operation> = coverage::all().into_iter().collect();
     assert_eq!(worked, [(); 3].map(|()| all.clone()), "an operation that changes nothing was not tested");
+    assert_eq!(rungs, (0..=Rung::NEAREST).collect(), "rungs of the ladder that were tested");
 }
 
 /// A solve has ended where f32 can get to, says so truly, and the GPU's is no worse than the CPU's.

@@ -81,7 +81,7 @@ pub fn of(changes: &[&str]) -> Scene {
 }
 
 /// Groups of points out of each other's sight whose fits stand on every rung of the ladder: a dense patch that makes room for
-/// long lists; one row; two rows; two rows with a third that only a wider radius reaches. No pressure, no walls.
+/// long lists; one row; two rows; two rows with a third that only a wider radius reaches, of each width. No pressure, no walls.
 fn ladder() -> Scene {
     let rows = |corner: DVec2, across: &[f64]| -> Vec<DVec2> {
         across.iter().flat_map(|&y| (0..13).map(move |k| corner + DVec2::new(0.5 * f64::from(k), y))).collect()
@@ -92,6 +92,8 @@ fn ladder() -> Scene {
         rows(DVec2::new(22.0, 2.0), &[0.0]),
         rows(DVec2::new(2.0, 22.0), &[0.0, 0.5]),
         rows(DVec2::new(22.0, 22.0), &[0.0, 0.5, 3.0]),
+        rows(DVec2::new(12.0, 13.0), &[0.0, 0.5, 3.8]),
+        rows(DVec2::new(32.0, 32.0), &[0.0, 0.5, 5.0]),
     ]
     .concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
