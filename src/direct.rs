@@ -21,7 +21,7 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
-    General { lu: Lu<usize, f64>, row: Vec<(usize, f64)>, ones: Vec<f64> },
+    General { lu: Box<Lu<usize, f64>>, row: Vec<(usize, f64)>, ones: Vec<f64> },
 }
 
 impl DirectSolver {
@@ -60,7 +60,7 @@ impl DirectSolver {
         let mut ones = vec![1.0; rows.len()];
         ones[0] = 0.0;
         let ones = solve(&lu, &ones);
-        Ok(Self(Factor::General { lu, row: rows[0].clone(), ones }))
+        Ok(Self(Factor::General { lu: Box::new(lu), row: rows[0].clone(), ones }))
     }
 
     /// The pressure of mean zero for a right side of one entry a point, Pa.
@@ -77,7 +77,7 @@ impl DirectSolver {
             Factor::General { lu, row, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
-                let pressure = solve(lu, &right);
+                let pressure = solve(lu.as_ref(), &right);
                 let along = |x: &[f64]| row.iter().map(|&(column, value)| value * x[column]).sum::<f64>();
                 let multiplier = (source[0] - along(&pressure)) / (1.0 - along(ones));
                 pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
