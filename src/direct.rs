@@ -21,7 +21,7 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
-    General { lu: Lu<usize, f64>, rows: Vec<Vec<(usize, f64)>>, ones: Vec<f64> },
+    General { lu: Box<Lu<usize, f64>>, rows: Vec<Vec<(usize, f64)>>, ones: Vec<f64> },
 }
 
 impl DirectSolver {
@@ -59,7 +59,7 @@ impl DirectSolver {
         let mut ones = vec![1.0; rows.len()];
         ones[0] = 0.0;
         let ones = solve(&lu, &ones);
-        Ok(Self(Factor::General { lu, rows, ones }))
+        Ok(Self(Factor::General { lu: Box::new(lu), rows, ones }))
     }
 
     /// The pressure of mean zero for a right side of one entry a point, Pa.
@@ -76,7 +76,7 @@ impl DirectSolver {
             Factor::General { lu, rows, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
-                let pressure = solve(lu, &right);
+                let pressure = solve(lu.as_ref(), &right);
                 let along = |x: &[f64]| product(&rows[0], x);
                 let multiplier = (source[0] - along(&pressure)) / (1.0 - along(ones));
                 pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()

@@ -64,12 +64,14 @@ pub fn for_each_2<R: Send, S: Send>(
     }
 }
 
+type Body3<'a, R, S, Q> = dyn Fn(usize, &mut [R], &mut [S], &mut [Q]) + Sync + 'a;
+
 /// The same for three arrays at once.
 pub fn for_each_3<R: Send, S: Send, Q: Send>(
     (first, slots): (&mut [R], usize),
     (second, others): (&mut [S], usize),
     (third, more): (&mut [Q], usize),
-    body: &(dyn Fn(usize, &mut [R], &mut [S], &mut [Q]) + Sync),
+    body: &Body3<'_, R, S, Q>,
 ) {
     let serial = first.len() < SERIAL_BELOW * slots;
     if serial {

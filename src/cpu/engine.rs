@@ -6,7 +6,7 @@ use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces};
 use crate::cpu::operations::derivative::{self, Fits};
 use crate::cpu::operations::moments::WeightFunction;
-use crate::cpu::operations::neighbours::CellList;
+use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
@@ -65,6 +65,16 @@ impl<T: Real> CpuEngine<T> {
         })
     }
 
+    fn search(&self, points: Points) -> Result<Search<'_, T>, EngineError> {
+        Ok(Search {
+            position: self.fields.real(Buffer::Position(points))?,
+            points: self.scene.sizes.points,
+            grid: &self.scene.constants.grid,
+            start: self.fields.index(Buffer::CellStart(points))?,
+            sorted: self.fields.index(Buffer::CellPoints(points))?,
+        })
+    }
+
     fn faces(&self) -> Result<Faces<'_, T>, EngineError> {
         Ok(Faces {
             neighbours: self.fields.index(Buffer::FaceNeighbours)?,
@@ -87,31 +97,21 @@ impl<T: Real> CpuEngine<T> {
     fn geometry(&mut self, operation: Operation) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
         let (sizes, constants) = (&scene.sizes, &scene.constants);
-        let list = |fields: &Fields<T>, points: Points| -> Result<CellList, EngineError> {
-            Ok(CellList {
-                start: fields.index(Buffer::CellStart(points))?.to_vec(),
-                points: fields.index(Buffer::CellPoints(points))?[..sizes.points].to_vec(),
-            })
-        };
         match operation {
             Operation::BuildCells(points) => {
-                let mut cells = CellList::default();
+                let mut start = self.fields.take_index(Buffer::CellStart(points))?;
+                let mut sorted = self.fields.take_index(Buffer::CellPoints(points))?;
                 let position = self.fields.real(Buffer::Position(points))?;
-                neighbours::build_cells(position, sizes.points, &constants.grid, &mut cells);
-                cells.points.resize(scene.padded(), 0);
-                self.fields.put_index(Buffer::CellStart(points), cells.start);
-                self.fields.put_index(Buffer::CellPoints(points), cells.points);
+                neighbours::build_cells(position, sizes.points, &constants.grid, &mut start, &mut sorted);
+                self.fields.put_index(Buffer::CellStart(points), start);
+                self.fields.put_index(Buffer::CellPoints(points), sorted);
             }
             Operation::FindNeighbours(points) => {
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                let cells = list(&self.fields, points)?;
                 let most = neighbours::find_neighbours(
-                    self.fields.real(Buffer::Position(points))?,
-                    sizes.points,
+                    self.search(points)?,
                     T::from_f64(constants.radius),
-                    &constants.grid,
-                    &cells,
                     sizes.capacity,
                     &mut found,
                     &mut count,
@@ -150,12 +150,8 @@ impl<T: Real> CpuEngine<T> {
                 let mut support = self.fields.take(Buffer::Support(points))?;
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                let cells = list(&self.fields, points)?;
                 with_weight!(constants.weight, weight => fit::widen_support(
-                    self.fields.real(Buffer::Position(points))?,
-                    sizes.points,
-                    &constants.grid,
-                    &cells,
+                    self.search(points)?,
                     sizes.capacity,
                     weight,
                     &mut support,

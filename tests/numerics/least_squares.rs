@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use stillpoint::case::Case;
-use stillpoint::step::{Buffer, Operation, Points, Rung};
+use stillpoint::step::{Buffer, Operation, Points, Rung, Stage};
 
 use crate::bench::{Bench, Derivatives, most, order};
 use crate::cases::{ARRANGEMENTS, cavity, cavity_of};
@@ -100,10 +100,10 @@ fn viscosity_and_correction_are_the_laplacian_and_the_gradient() {
         bench.clock.kick = half;
 
         let field = bench.sample(|p| DVec2::new(quadratic.value(p), -quadratic.value(p)));
-        let diffused = bench.scene.plan.diffused();
+        let diffused = Buffer::Velocity;
         bench.write_vectors(diffused, &field);
         bench.write_vectors(Buffer::Kick, &[]);
-        bench.apply(&[Operation::Viscosity]);
+        bench.apply(&[Operation::Viscosity(Stage::Start)]);
         let expected = half * 0.01 * quadratic.laplacian();
         let kicks = bench.vectors(Buffer::Kick);
         let off = kicks[..interior].iter().map(|kick| (*kick - DVec2::new(expected, -expected)).length());

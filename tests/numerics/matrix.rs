@@ -30,7 +30,7 @@ pub fn product(bench: &mut Bench, p: &[f64]) -> Vec<f64> {
         let (neighbours, count) = (bench.indexes(Buffer::FaceNeighbours), bench.indexes(Buffer::FaceCount));
         let (weight, volume) = (bench.reals(Buffer::FaceWeight), bench.reals(Buffer::Volume));
         let faces = Faces { neighbours: &neighbours, weight: &weight, count: &count, capacity: sizes.face_capacity };
-        rows_times(&Conservative { faces, volume: &volume }, &padded)
+        rows_times(&Conservative { faces, per_volume: &volume }, &padded)
     } else {
         let neighbours = bench.indexes(Buffer::Neighbours(Points::Standing));
         let count = bench.indexes(Buffer::NeighbourCount(Points::Standing));

@@ -2,9 +2,9 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::moments::{self, FACTOR, Moments, PIVOT_THRESHOLD, WeightFunction};
-use crate::cpu::operations::neighbours::{self, CellList};
+use crate::cpu::operations::neighbours::Search;
 use crate::cpu::real::{One, Pack, Real};
-use crate::step::{Grid, Rung};
+use crate::step::Rung;
 
 /// Forms and factorises the 5x5 normal matrix of every point.
 ///
@@ -91,10 +91,7 @@ impl<'a, T: Real> Stencil<'a, T> {
 ///
 /// Returns how many points stand on each rung: widened, linear, nearest.
 pub fn widen_support<T: Real>(
-    position: &[T],
-    points: usize,
-    grid: &Grid,
-    list: &CellList,
+    search: Search<T>,
     capacity: usize,
     weight: impl WeightFunction,
     support: &mut [T],
@@ -103,6 +100,7 @@ pub fn widen_support<T: Real>(
     factor: &mut [T],
     rung: &mut [u32],
 ) -> [u32; 3] {
+    let Search { position, points, .. } = search;
     let mut tally = [0; 3];
     let threshold = T::from_f64(PIVOT_THRESHOLD);
     for i in (0..rung.len()).filter(|&i| rung[i] == Rung::FAILED).collect::<Vec<_>>() {
@@ -131,7 +129,7 @@ pub fn widen_support<T: Real>(
         for (step, wider) in Rung::WIDER.iter().enumerate() {
             let radius = radius * T::from_f64(*wider);
             found.clear();
-            neighbours::within(position, i, radius, grid, list, |j| found.push(j));
+            search.within(i, radius, |j| found.push(j));
             if found.len() > capacity {
                 break;
             }

@@ -164,13 +164,13 @@ pub fn solve<T: Real, P: Pack<T>>(factor: &[P; FACTOR], right: [P; COEFFICIENTS]
     for row in 0..COEFFICIENTS {
         let start = row * (row + 1) / 2;
         for k in 0..row {
-            a[row] = a[row] - factor[start + k] * a[k];
+            a[row] -= factor[start + k] * a[k];
         }
         a[row] = a[row] * factor[start + row];
     }
     for row in (0..COEFFICIENTS).rev() {
         for k in row + 1..COEFFICIENTS {
-            a[row] = a[row] - factor[k * (k + 1) / 2 + row] * a[k];
+            a[row] -= factor[k * (k + 1) / 2 + row] * a[k];
         }
         a[row] = a[row] * factor[row * (row + 1) / 2 + row];
     }

@@ -7,53 +7,59 @@ use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::real::Real;
 use crate::step::Grid;
 
-/// The cell list: where each cell's points begin, and the points.
-#[derive(Debug, Clone, Default)]
-pub struct CellList {
-    pub start: Vec<u32>,
-    pub points: Vec<u32>,
+/// Points sorted into cells, to be searched.
+#[derive(Clone, Copy)]
+pub struct Search<'a, T> {
+    pub position: &'a [T],
+    pub points: usize,
+    pub grid: &'a Grid,
+    /// Where each cell's points begin in `sorted`; one more entry than cells.
+    pub start: &'a [u32],
+    /// The points, cell by cell, ascending within a cell.
+    pub sorted: &'a [u32],
 }
 
-/// Sorts points into cells.
-pub fn build_cells<T: Real>(position: &[T], points: usize, grid: &Grid, list: &mut CellList) {
+/// Sorts points into cells: fills what [`Search`] calls `start` and `sorted`.
+pub fn build_cells<T: Real>(position: &[T], points: usize, grid: &Grid, start: &mut [u32], sorted: &mut [u32]) {
     let cell_of = |point: usize| {
         let [x, y] = grid.cell_of([position[2 * point].to_f64(), position[2 * point + 1].to_f64()]);
         (y * grid.cells[0] + x) as usize
     };
-    list.start.clear();
-    list.start.resize(grid.count() + 1, 0);
-    list.points.resize(points, 0);
+    start.fill(0);
     for point in 0..points {
-        list.start[cell_of(point) + 1] += 1;
+        start[cell_of(point) + 1] += 1;
     }
     for cell in 0..grid.count() {
-        list.start[cell + 1] += list.start[cell];
+        start[cell + 1] += start[cell];
     }
-    // Fill each cell from its end backwards, so that `start` needs no copy: it ends where it began.
+    // Each start serves as its cell's cursor, ends where the next cell begins, and is shifted back into place.
     for point in 0..points {
         let cell = cell_of(point);
-        list.points[list.start[cell] as usize] = point as u32;
-        list.start[cell] += 1;
+        sorted[start[cell] as usize] = point as u32;
+        start[cell] += 1;
     }
-    list.start.copy_within(0..grid.count(), 1);
-    list.start[0] = 0;
+    start.copy_within(0..grid.count(), 1);
+    start[0] = 0;
 }
 
-/// Calls `found(j)` for every point within `radius` of point `i`, `i` itself apart, in the order of the cell list.
-#[inline(always)]
-pub fn within<T: Real>(position: &[T], i: usize, radius: T, grid: &Grid, list: &CellList, mut found: impl FnMut(u32)) {
-    let own = [position[2 * i], position[2 * i + 1]];
-    let [cx, cy] = grid.cell_of(own.map(Real::to_f64));
-    let ring = (radius.to_f64() * grid.per_metre).ceil().max(1.0) as u32;
-    let [nx, ny] = grid.cells;
-    for y in cy.saturating_sub(ring)..=(cy + ring).min(ny - 1) {
-        let row = (y * nx) as usize;
-        let first = list.start[row + cx.saturating_sub(ring) as usize] as usize;
-        let last = list.start[row + (cx + ring).min(nx - 1) as usize + 1] as usize;
-        for &j in &list.points[first..last] {
-            let (dx, dy) = (position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]);
-            if j as usize != i && dx * dx + dy * dy < radius * radius {
-                found(j);
+impl<T: Real> Search<'_, T> {
+    /// Calls `found(j)` for every point within `radius` of point `i`, `i` itself apart, in the order of the cells.
+    #[inline(always)]
+    pub fn within(&self, i: usize, radius: T, mut found: impl FnMut(u32)) {
+        let (position, grid) = (self.position, self.grid);
+        let own = [position[2 * i], position[2 * i + 1]];
+        let [cx, cy] = grid.cell_of(own.map(Real::to_f64));
+        let ring = (radius.to_f64() * grid.per_metre).ceil().max(1.0) as u32;
+        let [nx, ny] = grid.cells;
+        for y in cy.saturating_sub(ring)..=(cy + ring).min(ny - 1) {
+            let row = (y * nx) as usize;
+            let first = self.start[row + cx.saturating_sub(ring) as usize] as usize;
+            let last = self.start[row + (cx + ring).min(nx - 1) as usize + 1] as usize;
+            for &j in &self.sorted[first..last] {
+                let (dx, dy) = (position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]);
+                if j as usize != i && dx * dx + dy * dy < radius * radius {
+                    found(j);
+                }
             }
         }
     }
@@ -62,22 +68,20 @@ pub fn within<T: Real>(position: &[T], i: usize, radius: T, grid: &Grid, list: &
 /// Fills the list of every point. Returns the largest number of neighbours met; above `capacity` the lists are cut off
 /// and the caller reports it.
 pub fn find_neighbours<T: Real>(
-    position: &[T],
-    points: usize,
+    search: Search<T>,
     radius: T,
-    grid: &Grid,
-    list: &CellList,
     capacity: usize,
     neighbours: &mut [u32],
     count: &mut [u32],
 ) -> usize {
+    let points = search.points;
     blocks::for_each_2((neighbours, capacity), (&mut *count, 1), &|block, neighbours, count| {
         for lane in 0..BLOCK {
             let i = block * BLOCK + lane;
             let own = i.min(points - 1);
             let mut met = 0;
             if i < points {
-                within(position, i, radius, grid, list, |j| {
+                search.within(i, radius, |j| {
                     if met < capacity {
                         neighbours[met * BLOCK + lane] = j;
                     }
@@ -105,12 +109,13 @@ mod tests {
             let position: Vec<f64> = cloud.position.iter().flat_map(|place| [place.x, place.y]).collect();
             let radius = 2.6 * cloud.spacing;
             let grid = Grid::new(cloud.size, radius);
-            let mut list = CellList::default();
-            build_cells(&position, points, &grid, &mut list);
+            let (mut start, mut sorted) = (vec![0; grid.count() + 1], vec![0; points]);
+            build_cells(&position, points, &grid, &mut start, &mut sorted);
+            let search = Search { position: &position, points, grid: &grid, start: &start, sorted: &sorted };
             let padded = blocks::padded(points);
             let capacity = 64;
             let (mut neighbours, mut count) = (vec![0; padded * capacity], vec![0; padded]);
-            find_neighbours(&position, points, radius, &grid, &list, capacity, &mut neighbours, &mut count);
+            find_neighbours(search, radius, capacity, &mut neighbours, &mut count);
             for i in 0..points {
                 let mut found: Vec<u32> =
                     (0..count[i] as usize).map(|slot| neighbours[blocks::at(i, slot, capacity)]).collect();
