@@ -37,11 +37,12 @@ impl Engine for Spoiled {
     }
 
     fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
-        if self.steps <= self.after && self.steps + steps > self.after {
-            if let Data::Real(mut values) = self.inner.read(self.velocity)? {
-                values[2 * self.point] = f64::NAN;
-                self.inner.write(self.velocity, &Data::Real(values))?;
-            }
+        if self.steps <= self.after
+            && self.steps + steps > self.after
+            && let Data::Real(mut values) = self.inner.read(self.velocity)?
+        {
+            values[2 * self.point] = f64::NAN;
+            self.inner.write(self.velocity, &Data::Real(values))?;
         }
         let done = self.inner.advance(steps, clock)?;
         self.steps += done.steps;
