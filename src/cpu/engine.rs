@@ -121,12 +121,10 @@ impl<T: Real> CpuEngine<T> {
                 if most > sizes.capacity {
                     return Err(EngineError::NeighbourOverflow { found: most as u32, capacity: sizes.capacity });
                 }
-                if points == Points::Moved {
-                    self.fields.take(Buffer::Support(points)).map(|mut support| {
-                        support.fill(T::from_f64(constants.radius));
-                        self.fields.put(Buffer::Support(points), support);
-                    })?;
-                }
+                // The ladder of an earlier search may have widened some.
+                with_taken!(self.fields, [support = Buffer::Support(points)], {
+                    support.fill(T::from_f64(constants.radius));
+                });
             }
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
