@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid};
+use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
 
@@ -40,6 +41,8 @@ pub struct Constants {
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
+    /// Rounding units of the diagonal's product below which no pressure residual falls.
+    pub floor: f64,
     /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
     pub shift: f64,
 }
@@ -92,6 +95,7 @@ impl Scene {
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             tolerance: pressure.tolerance,
             max_iterations: pressure.max_iterations,
+            floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
         Ok(Self { case: case.clone(), cloud, plan, sizes, constants, cells })

@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces};
-use crate::cpu::operations::derivative::{self, Fits};
+use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
+use crate::cpu::operations::fits::{self, Fits};
 use crate::cpu::operations::moments::WeightFunction;
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
+use crate::cpu::operations::rows::{self, Lists};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
@@ -63,6 +65,22 @@ impl<T: Real> CpuEngine<T> {
             factor: self.fields.real(Buffer::Factor(points))?,
             weight,
         })
+    }
+
+    fn lists(&self) -> Result<Lists<'_>, EngineError> {
+        Ok(Lists {
+            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
+            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+            capacity: self.scene.sizes.capacity,
+        })
+    }
+
+    fn laplacian(&self) -> Result<Laplacian<'_, T>, EngineError> {
+        Ok(Laplacian { lists: self.lists()?, row: self.fields.real(Buffer::LaplacianRow)? })
+    }
+
+    fn gradient(&self) -> Result<Gradient<'_, T>, EngineError> {
+        Ok(Gradient { lists: self.lists()?, row: self.fields.real(Buffer::GradientRow)? })
     }
 
     fn search(&self, points: Points) -> Result<Search<'_, T>, EngineError> {
@@ -164,19 +182,31 @@ impl<T: Real> CpuEngine<T> {
                 self.fields.put_index(Buffer::Neighbours(points), found);
                 self.fields.put_index(Buffer::NeighbourCount(points), count);
             }
+            Operation::AssembleLaplacian => {
+                with_taken!(self.fields, [row = Buffer::LaplacianRow], {
+                    with_weight!(constants.weight, weight =>
+                        rows::assemble_laplacian(self.fits(Points::Standing, weight)?, &mut row));
+                });
+            }
+            Operation::AssembleGradient => {
+                with_taken!(self.fields, [row = Buffer::GradientRow], {
+                    with_weight!(constants.weight, weight =>
+                        rows::assemble_gradient(self.fits(Points::Standing, weight)?, &mut row));
+                });
+            }
             _ => {
                 with_taken!(
                     self.fields,
                     [row = Buffer::MatrixRow, scale = Buffer::RowScale, diagonal = Buffer::Diagonal],
-                    with_weight!(constants.weight, weight => collocated::assemble(
-                        self.fits(Points::Standing, weight)?,
+                    collocated::assemble(
+                        self.fields.real(Buffer::LaplacianRow)?,
+                        self.gradient()?,
                         self.fields.real(Buffer::Normal)?,
-                        sizes.points,
-                        sizes.interior,
+                        [sizes.interior, sizes.points],
                         &mut row,
                         &mut scale,
                         &mut diagonal,
-                    ))
+                    )
                 );
             }
         }
@@ -193,7 +223,7 @@ impl<T: Real> CpuEngine<T> {
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let values = self.fields.real(moving)?;
                     with_weight!(constants.weight, weight =>
-                        derivative::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
+                        fits::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
                 });
             }
             Operation::MovePoints => {
@@ -248,7 +278,6 @@ impl<T: Real> CpuEngine<T> {
     fn kick(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
         let (sizes, constants) = (&scene.sizes, &scene.constants);
-        let standing = Points::Standing;
         let kick_per_density = T::from_f64(clock.kick / constants.density);
         match operation {
             Operation::ClearKick => {
@@ -264,8 +293,7 @@ impl<T: Real> CpuEngine<T> {
                 let diffusion = T::from_f64(clock.kick * constants.viscosity);
                 with_taken!(self.fields, [kick = Buffer::Kick], {
                     let field = self.fields.real(stage.velocity())?;
-                    with_weight!(constants.weight, weight => derivative::viscosity(
-                        self.fits(standing, weight)?, field, diffusion, self.forced(), &mut kick));
+                    derivative::viscosity(self.laplacian()?, field, diffusion, self.forced(), &mut kick);
                 });
             }
             Operation::Predict => {
@@ -277,8 +305,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::CorrectByFit => {
                 with_taken!(self.fields, [projected = Buffer::Projected], {
                     let pressure = self.fields.real(Buffer::Pressure)?;
-                    with_weight!(constants.weight, weight => derivative::correct_by_fit(
-                        self.fits(standing, weight)?, pressure, kick_per_density, sizes.interior, &mut projected));
+                    let end = sizes.interior;
+                    derivative::correct_by_fit(self.gradient()?, pressure, kick_per_density, end, &mut projected);
                 });
             }
             Operation::CorrectByAdjoint => {
@@ -332,8 +360,8 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::CollocatedSource => {
                 with_taken!(self.fields, [source = Buffer::Source], {
-                    with_weight!(constants.weight, weight => collocated::source(
-                        self.fits(Points::Standing, weight)?,
+                    collocated::source(
+                        self.gradient()?,
                         self.fields.real(Buffer::Normal)?,
                         self.fields.real(Buffer::RowScale)?,
                         self.fields.real(Buffer::Velocity)?,
@@ -341,7 +369,7 @@ impl<T: Real> CpuEngine<T> {
                         T::from_f64(density_per_kick),
                         [sizes.interior, sizes.points],
                         &mut source,
-                    ));
+                    );
                 });
             }
             Operation::DirectSolve => self.solve_directly()?,
@@ -349,6 +377,7 @@ impl<T: Real> CpuEngine<T> {
                 let stop = Stop {
                     residual: constants.tolerance * density_per_kick / clock.dt,
                     max_iterations: constants.max_iterations,
+                    floor: constants.floor,
                 };
                 self.solve = match operation {
                     Operation::ConjugateGradient => self.conjugate_gradient(stop)?,
@@ -368,12 +397,7 @@ impl<T: Real> CpuEngine<T> {
     }
 
     fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
-        Ok(collocated::Collocated {
-            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
-            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
-            capacity: self.scene.sizes.capacity,
-            row: self.fields.real(Buffer::MatrixRow)?,
-        })
+        Ok(collocated::Collocated { lists: self.lists()?, row: self.fields.real(Buffer::MatrixRow)? })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -493,6 +517,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::FindNeighbours(_)
             | Operation::Factorise(_)
             | Operation::WidenSupport(_)
+            | Operation::AssembleLaplacian
+            | Operation::AssembleGradient
             | Operation::AssembleCollocated => self.geometry(operation),
             Operation::FitVelocity(_)
             | Operation::RemapDeparture
@@ -553,7 +579,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
-            with_weight!(scene.constants.weight, weight => derivative::fitted_divergence(
+            with_weight!(scene.constants.weight, weight => fits::fitted_divergence(
                 self.fits(Points::Standing, weight)?, velocity, scene.sizes.interior, &mut divergence));
             measurement.divergence = measure::rms(&divergence, points);
         }

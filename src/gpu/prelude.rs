@@ -116,7 +116,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("HEIGHT", constants.size.y),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
-        ("STOP_FLOOR", Stop::FLOOR),
+        ("STOP_FLOOR", constants.floor),
         ("EPSILON", precision.epsilon()),
         ("SHIFT_PER_POINT", constants.shift / sizes.points as f64),
     ];

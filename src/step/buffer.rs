@@ -45,6 +45,10 @@ pub enum Buffer {
     FaceCount,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
+    /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
+    LaplacianRow,
+    /// Gradient as a sum: the same for the derivatives along x, then along y, 1/m; blocked, `2 capacity` slots.
+    GradientRow,
     /// Collocated pressure matrix: the factor of `p_j - p_i` for every neighbour slot, 1/m^2, blocked.
     MatrixRow,
     /// Collocated pressure matrix: what each row was multiplied by, 1 inside, 1/m at the boundary.
@@ -106,6 +110,8 @@ impl Buffer {
             Buffer::FaceWeight => ("face_weight", None),
             Buffer::FaceCount => ("face_count", None),
             Buffer::Normal => ("normal", None),
+            Buffer::LaplacianRow => ("laplacian_row", None),
+            Buffer::GradientRow => ("gradient_row", None),
             Buffer::MatrixRow => ("matrix_row", None),
             Buffer::RowScale => ("row_scale", None),
             Buffer::Diagonal => ("diagonal", None),
@@ -157,7 +163,8 @@ impl Buffer {
             | Buffer::Reflected
             | Buffer::PressureKick
             | Buffer::Reported => 2,
-            Buffer::Neighbours(_) | Buffer::MatrixRow => sizes.capacity,
+            Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
+            Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
             Buffer::Factor(_) => 15,
             Buffer::Coefficients => 10,

@@ -41,8 +41,15 @@ impl Plan {
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
         let standing = Points::Standing;
+        let gradient = effects.pressure.as_ref().map(|pressure| pressure.gradient());
         let mut setup =
             vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
+        if effects.viscosity.is_some() || collocated {
+            setup.push(AssembleLaplacian);
+        }
+        if gradient == Some(Gradient::Fit) {
+            setup.push(AssembleGradient);
+        }
         let mut drift = Vec::new();
         match effects.advection.as_ref().map(|advection| advection.remap) {
             None => drift.push(KeepVelocity),
@@ -67,20 +74,19 @@ impl Plan {
         }
         kick.push(Predict);
         if let Some(pressure) = &effects.pressure {
-            let (source, default) = match pressure.form {
-                PressureForm::Conservative => (Divergence, Solver::ConjugateGradient),
+            kick.push(match pressure.form {
+                PressureForm::Conservative => Divergence,
                 PressureForm::Collocated => {
                     setup.push(AssembleCollocated);
-                    (CollocatedSource, Solver::Bicgstab)
+                    CollocatedSource
                 }
-            };
-            kick.push(source);
-            kick.push(match pressure.solver.unwrap_or(default) {
+            });
+            kick.push(match pressure.solver() {
                 Solver::ConjugateGradient => ConjugateGradient,
                 Solver::Bicgstab => Bicgstab,
                 Solver::Direct => DirectSolve,
             });
-            kick.push(match pressure.gradient.unwrap_or(Gradient::Fit) {
+            kick.push(match pressure.gradient() {
                 Gradient::Fit => CorrectByFit,
                 Gradient::Adjoint => CorrectByAdjoint,
             });

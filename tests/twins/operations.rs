@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use stillpoint::cpu::operations::pressure::Stop;
 use stillpoint::direct::DirectSolver;
 use stillpoint::engine::{Clock, Data, Engine, Outcome};
 use stillpoint::scene::Scene;
@@ -55,6 +54,8 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         Operation::FindNeighbours(points) => vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points)],
         Operation::BuildCells(_)
         | Operation::Factorise(_)
+        | Operation::AssembleLaplacian
+        | Operation::AssembleGradient
         | Operation::AssembleCollocated
         | Operation::FitVelocity(_)
         | Operation::MovePoints
@@ -163,7 +164,7 @@ fn residuals_agree(name: &str, done: Done) {
         if scene.cells().is_some() { size / volume[i] } else { size }
     };
     let rms = ((0..points).map(|i| size(i).powi(2)).sum::<f64>() / points as f64).sqrt();
-    let floor = Stop::FLOOR * f64::from(f32::EPSILON) * rms;
+    let floor = scene.constants.floor * f64::from(f32::EPSILON) * rms;
     let say = format!("{name}, {operation:?}: {infos:?}; recomputed {residuals:?}, floor {floor}");
     for (info, residual) in infos.iter().zip(residuals) {
         assert!(info.outcome == Outcome::Converged && info.iterations > 5, "{say}");
