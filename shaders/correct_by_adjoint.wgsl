@@ -4,6 +4,7 @@
 // Discrete:   u'_i = u*_i - (dt / rho) (1 / 2 V_i) sum_j w_ij d_ij (p_j - p_i). Units: m/s.
 
 #import points
+#import space
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -18,7 +19,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let last = first + min(face_count[i], FACE_CAPACITY) * BLOCK;
     for (var slot = first; slot < last; slot += BLOCK) {
         let j = face_neighbours[slot];
-        sum += face_weight[slot] * (pressure[j] - own) * (position[j] - here);
+        sum += face_weight[slot] * (pressure[j] - own) * shortest(position[j] - here);
     }
     projected[i] += real(-0.5) * clock[CLOCK_CORRECTION] / volume[i] * sum;
 }

@@ -5,13 +5,14 @@
 
 #import evaluate
 #import finite
+#import space
 
 fn evaluate(j: u32, place: vector) -> vector {
-    return evaluate_offset(j, place - position[j], real(1.0) / support[j]);
+    return evaluate_offset(j, shortest(place - position[j]), real(1.0) / support[j]);
 }
 
 fn square_to(j: u32, place: vector) -> real {
-    let d = position[j] - place;
+    let d = shortest(position[j] - place);
     return d.x * d.x + d.y * d.y;
 }
 
@@ -43,7 +44,7 @@ fn nearest(place: vector, start: u32) -> u32 {
 // What is no number stays none: a lost velocity must be seen, and min and max may replace it by that of a corner.
 fn back(here: vector, velocity: vector) -> vector {
     let place = here - clock[CLOCK_DT] * velocity;
-    let inside = min(max(place, vector()), vector(WIDTH, HEIGHT));
+    let inside = min(max(wrapped(place), LOWEST), HIGHEST);
     return select(place, inside, finite(place.x) && finite(place.y));
 }
 

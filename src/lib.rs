@@ -6,6 +6,7 @@ pub mod cloud;
 pub mod cpu;
 pub mod direct;
 pub mod engine;
+pub mod exact;
 pub mod gpu;
 pub mod measure;
 pub mod output;

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
 use crate::cloud::voronoi::Cells;
-use crate::cloud::{Cloud, CloudError, grid};
+use crate::cloud::{Cloud, CloudError, grid, shortest};
 use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
+use crate::exact::Exact;
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
 
 /// Everything about a run that does not change while it runs, in f64, on the host.
@@ -18,6 +19,8 @@ pub struct Scene {
     pub plan: Plan,
     pub sizes: Sizes,
     pub constants: Constants,
+    /// The flow that the case knows.
+    exact: Option<Exact>,
     /// Voronoi cells, where the plan's pressure is conservative.
     cells: Option<Cells>,
 }
@@ -32,6 +35,10 @@ pub struct Constants {
     pub grid: Grid,
     /// Width and height of the rectangle, m.
     pub size: DVec2,
+    /// Lengths after which it repeats along x and y, m; 0 along an axis that ends at walls.
+    pub period: DVec2,
+    /// Lower left and upper right end of the places that fluid is followed back to, m.
+    pub bounds: [DVec2; 2],
     /// `l0`, m.
     pub spacing: f64,
     /// kg/m^3
@@ -71,12 +78,12 @@ impl Scene {
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
         let plan = Plan::new(case);
         let radius = case.method.radius * cloud.spacing;
-        let grid = Grid::new(cloud.size, radius);
+        let grid = Grid::new(cloud.size, cloud.period, radius);
         let most = survey(&cloud, radius, case.method.radius)?;
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
-        let cells = conservative.then(|| Cells::build(&cloud.position, cloud.size, cloud.spacing));
+        let cells = conservative.then(|| Cells::build(&cloud));
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
@@ -84,12 +91,15 @@ impl Scene {
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             cells: grid.count(),
         };
+        let beyond = if plan.through_flow { radius } else { 0.0 };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let constants = Constants {
             radius,
             weight: case.method.weight,
             grid,
             size: cloud.size,
+            period: cloud.period,
+            bounds: [DVec2::splat(-beyond), cloud.size + beyond],
             spacing: cloud.spacing,
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
@@ -98,12 +108,24 @@ impl Scene {
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, cells })
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells })
     }
 
     /// The Voronoi cells; `None` unless the pressure is conservative.
     pub fn cells(&self) -> Option<&Cells> {
         self.cells.as_ref()
+    }
+
+    /// The velocity at every point that a run begins with, m/s: the exact solution's, or rest between the walls.
+    pub fn initial_velocity(&self) -> Vec<DVec2> {
+        let cloud = &self.cloud;
+        match &self.exact {
+            Some(exact) => cloud.position.iter().map(|&place| exact.velocity(place, 0.0)).collect(),
+            None => {
+                let rest = std::iter::repeat_n(DVec2::ZERO, cloud.interior);
+                rest.chain(cloud.wall_velocity(&self.case.boundaries)).collect()
+            }
+        }
     }
 
     /// Lengths in time of a step of `dt` s.
@@ -122,9 +144,7 @@ impl Scene {
     /// What an engine's arrays hold before the setup operations run; an array not named holds zeros.
     pub fn initial(&self) -> Vec<(Buffer, Data)> {
         let cloud = &self.cloud;
-        let boundary = cloud.wall_velocity(&self.case.boundaries);
-        let mut velocity = vec![DVec2::ZERO; cloud.interior];
-        velocity.extend(boundary);
+        let velocity = self.initial_velocity();
         let mut normal = vec![DVec2::ZERO; cloud.interior];
         normal.extend_from_slice(&cloud.normal);
         let volume = self.cells.as_ref().map_or_else(|| cloud.nominal_volume(), |cells| cells.volume.clone());
@@ -143,6 +163,10 @@ impl Scene {
         }
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
+            if let (true, Some(exact)) = (self.plan.through_flow, &self.exact) {
+                let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
+                data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
+            }
         }
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
@@ -206,13 +230,13 @@ impl Scene {
 
 /// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
 fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError> {
-    let grid = grid::Grid::new(&cloud.position, cloud.size, radius);
+    let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
         let own = cloud.position[point];
         let mut found = 0;
         for other in (0..=1).flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
-            let square = cloud.position[other].distance_squared(own);
+            let square = shortest(cloud.position[other] - own, cloud.period).length_squared();
             found += usize::from(square < radius * radius);
             if square < least * least {
                 let (first, second) = (point.min(other), point.max(other));

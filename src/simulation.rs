@@ -135,9 +135,10 @@ impl Run<'_> {
 
         let started = Instant::now();
         let time = &self.scene.case.time;
-        let walls = self.scene.cloud.wall_velocity(&self.scene.case.boundaries);
-        let wall_speed = walls.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-        let mut dt = self.step(wall_speed, 0.0)?;
+        let begun = self.scene.initial_velocity();
+        let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+        let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
+        let mut dt = self.step(fastest(&begun), 0.0)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
         let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);

@@ -5,6 +5,7 @@
 // The file that imports this says what is fitted: `value`, the type, and `field`, the value at a point.
 
 #import points
+#import space
 #import weight
 #import normal_equations
 
@@ -31,7 +32,7 @@ fn fit(i: u32) -> Fit {
     let last = first + min(neighbour_count[i], CAPACITY) * BLOCK;
     for (var slot = first; slot < last; slot += BLOCK) {
         let j = neighbours[slot];
-        let d = (position[j] - here) * per;
+        let d = shortest(position[j] - here) * per;
         let weighted = weight(d.x * d.x + d.y * d.y) * (field(j) - own);
         b1 += weighted * d.x;
         b2 += weighted * d.y;

@@ -3,11 +3,12 @@
 // The file that imports this says how many derivatives there are side by side: `value`.
 
 #import points
+#import space
 #import weight
 #import normal_equations
 
 fn factor_of(j: u32, here: vector, per: real, c: Coefficients) -> value {
-    let d = (position[j] - here) * per;
+    let d = shortest(position[j] - here) * per;
     let sum = c.a1 * d.x + c.a2 * d.y + c.a3 * (d.x * d.x) + c.a4 * (d.x * d.y) + c.a5 * (d.y * d.y);
     return weight(d.x * d.x + d.y * d.y) * sum;
 }

@@ -4,6 +4,7 @@
 // Shapes: twelve sums make up the 15 entries below the diagonal; the factor keeps reciprocals on the diagonal.
 
 #import points
+#import space
 #import weight
 
 // sum w x^a y^b, 2 <= a + b <= 4.
@@ -29,7 +30,7 @@ fn moments_of(i: u32, radius: real, count: u32) -> Moments {
     let first = at(i, 0u, CAPACITY);
     let last = first + min(count, CAPACITY) * BLOCK;
     for (var slot = first; slot < last; slot += BLOCK) {
-        let d = (position[neighbours[slot]] - here) * per;
+        let d = shortest(position[neighbours[slot]] - here) * per;
         let xx = d.x * d.x;
         let xy = d.x * d.y;
         let yy = d.y * d.y;

@@ -14,7 +14,7 @@ mod load;
 mod reference;
 mod text;
 
-pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
+pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use reference::{Profile, ReferenceError};
@@ -23,6 +23,7 @@ pub use text::TextError;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 /// A whole case file.
@@ -42,6 +43,8 @@ pub struct Case {
     #[serde(default)]
     pub effects: Effects,
     pub time: Time,
+    /// A flow that is known: where the run begins, what its walls prescribe, and what it may be measured against.
+    pub exact: Option<Exact>,
     #[serde(default)]
     pub output: Output,
     /// Published values that the run is held to, by name.
@@ -55,6 +58,34 @@ pub struct Case {
 pub struct Domain {
     pub width: f64,
     pub height: f64,
+    #[serde(default)]
+    pub periodic: Axes,
+}
+
+/// The axes along which the domain repeats: what leaves one side comes in at the other.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Axes {
+    #[default]
+    None,
+    X,
+    Y,
+    Both,
+}
+
+impl Axes {
+    /// Whether x and y are among them.
+    pub fn each(self) -> [bool; 2] {
+        [matches!(self, Axes::X | Axes::Both), matches!(self, Axes::Y | Axes::Both)]
+    }
+}
+
+impl Domain {
+    /// The lengths after which the domain repeats along x and y, m; 0 along an axis that ends at walls.
+    pub fn period(&self) -> DVec2 {
+        let [x, y] = self.periodic.each();
+        DVec2::new(if x { self.width } else { 0.0 }, if y { self.height } else { 0.0 })
+    }
 }
 
 /// How the points are laid out.
@@ -246,6 +277,22 @@ pub enum Splitting {
     Projection,
 }
 
+/// A flow whose velocity and pressure are known at every place and time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exact {
+    pub solution: Solution,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Solution {
+    /// Decaying vortices in a periodic box.
+    TaylorGreen,
+    /// The steady flow behind a row of cylinders, through a box.
+    Kovasznay,
+}
+
 fn default_courant() -> f64 {
     0.8
 }
@@ -265,12 +312,13 @@ impl Default for Output {
     }
 }
 
-/// One published value, or a published profile, along a line through the domain.
+/// One published value, or a published profile, along a line through the domain; or the error against the exact solution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     pub component: Component,
-    pub line: Line,
+    /// `minimum`, `maximum` and `profile`: the line that is looked along.
+    pub line: Option<Line>,
     pub measure: Measure,
     /// `minimum` and `maximum`: the published value, m/s or Pa.
     pub value: Option<f64>,
@@ -279,7 +327,8 @@ pub struct Expectation {
     pub profile: Option<PathBuf>,
     /// `profile`: the column of values; the first after the coordinate where absent.
     pub column: Option<String>,
-    /// Largest relative error (extremes), or rms error over the profile's largest magnitude (profiles).
+    /// Largest relative error (extremes), rms error over the profile's largest magnitude (profiles), or rms error over the rms
+    /// of the exact field (errors).
     pub tolerance: f64,
     /// Where the value was published.
     pub source: String,
@@ -292,8 +341,10 @@ pub enum Component {
     U,
     /// Velocity along y, m/s.
     V,
-    /// Pressure, Pa, relative to its value at the middle of the line.
+    /// Pressure, Pa, relative to its value at the middle of the line, or to its mean over the points (errors).
     P,
+    /// Both components of the velocity, m/s: `error` alone.
+    Velocity,
 }
 
 /// `{ x = 0.5 }`, the vertical line there, or `{ y = 0.5 }`, the horizontal one; m.
@@ -311,4 +362,6 @@ pub enum Measure {
     Maximum,
     /// Root mean square difference from a published profile.
     Profile,
+    /// Root mean square difference from the exact solution over all points, at the end of the run.
+    Error,
 }

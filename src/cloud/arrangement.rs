@@ -1,10 +1,11 @@
 //! Interior points: on a lattice, on a jittered lattice, or at random with a minimum distance.
 
-use glam::{DVec2, USizeVec2};
+use glam::DVec2;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{CloudError, wall};
+use super::wall::Lattice;
+use super::{CloudError, shortest};
 use crate::case::{Arrangement, Cloud};
 
 /// Throws per wanted point after which random placement gives up.
@@ -12,48 +13,49 @@ const THROWS_PER_POINT: usize = 400;
 
 pub(super) fn interior(
     cloud: &Cloud,
-    size: DVec2,
-    cells: [usize; 2],
+    lattice: &Lattice,
     boundary: &[DVec2],
 ) -> Result<Vec<DVec2>, CloudError> {
     let mut random = Uniform(Xoshiro256PlusPlus::seed_from_u64(cloud.seed()));
     match cloud.arrangement {
-        Arrangement::Regular => Ok(lattice(size, cells).collect()),
+        Arrangement::Regular => Ok(places(lattice).collect()),
         Arrangement::Jittered => {
             let reach = cloud.jitter() * cloud.spacing;
-            Ok(lattice(size, cells).map(|place| place + reach * random.in_square()).collect())
+            Ok(places(lattice).map(|place| place + reach * random.in_square()).collect())
         }
-        Arrangement::Random => random_points(
-            cloud.minimum_distance(),
-            cloud.spacing,
-            size,
-            (cells[0] - 1) * (cells[1] - 1),
-            boundary,
-            &mut random,
-        ),
+        Arrangement::Random => {
+            random_points(cloud.minimum_distance(), cloud.spacing, lattice, boundary, &mut random)
+        }
     }
 }
 
-fn lattice(size: DVec2, [nx, ny]: [usize; 2]) -> impl Iterator<Item = DVec2> {
-    (1..ny).flat_map(move |j| (1..nx).map(move |i| wall::lattice(size, [nx, ny], i, j)))
+fn places(lattice: &Lattice) -> impl Iterator<Item = DVec2> {
+    lattice.inner(1).flat_map(move |j| lattice.inner(0).map(move |i| lattice.place(i, j)))
 }
 
 /// Random sequential addition: places are thrown one after another, and kept where no point is too near.
 ///
 /// A grid of squares whose diagonal is the minimum distance holds at most one point a square, so a throw looks at
-/// the 5 x 5 squares around it.
+/// the 5 x 5 squares around it, across the seam where an axis repeats.
 fn random_points(
     minimum_distance: f64,
     spacing: f64,
-    size: DVec2,
-    wanted: usize,
+    lattice: &Lattice,
     boundary: &[DVec2],
     random: &mut Uniform,
 ) -> Result<Vec<DVec2>, CloudError> {
     const EMPTY: u32 = u32::MAX;
     let least = minimum_distance * spacing;
-    let square = least * std::f64::consts::FRAC_1_SQRT_2;
-    let squares = (size / square).floor().as_usizevec2() + 1;
+    let (size, wanted) = (lattice.size, lattice.interior());
+    let [x, y] = lattice.periodic;
+    let period = DVec2::new(if x { size.x } else { 0.0 }, if y { size.y } else { 0.0 });
+    let mut square = DVec2::splat(least * std::f64::consts::FRAC_1_SQRT_2);
+    let mut squares = (size / square).floor().as_usizevec2() + 1;
+    // A whole number of them, a little smaller, fills a period.
+    for axis in (0..2).filter(|&axis| lattice.periodic[axis]) {
+        squares[axis] = squares[axis].max(5);
+        square[axis] = size[axis] / squares[axis] as f64;
+    }
     let square_of = |place: DVec2| (place / square).as_usizevec2().min(squares - 1);
     let mut grid = vec![EMPTY; squares.x * squares.y];
     let mut placed: Vec<DVec2> = Vec::with_capacity(boundary.len() + wanted);
@@ -68,12 +70,18 @@ fn random_points(
         throws -= 1;
         let place = random.in_unit_square() * size;
         let at = square_of(place);
-        let low = USizeVec2::new(at.x.saturating_sub(2), at.y.saturating_sub(2));
-        let high = (at + 3).min(squares);
-        let crowded = (low.y..high.y).any(|row| {
-            grid[row * squares.x + low.x..row * squares.x + high.x]
-                .iter()
-                .any(|&other| other != EMPTY && placed[other as usize].distance_squared(place) < least * least)
+        let near = |axis: usize| {
+            let (at, count) = (at[axis], squares[axis]);
+            let wraps = lattice.periodic[axis];
+            (0..5).filter_map(move |k| match at + k {
+                beyond if wraps => Some((beyond + count - 2) % count),
+                k => (2..count + 2).contains(&k).then(|| k - 2),
+            })
+        };
+        let crowded = near(1).any(|row| {
+            near(0).map(|column| grid[row * squares.x + column]).filter(|&other| other != EMPTY).any(|other| {
+                shortest(placed[other as usize] - place, period).length_squared() < least * least
+            })
         });
         if !crowded {
             grid[at.y * squares.x + at.x] = placed.len() as u32;

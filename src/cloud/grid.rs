@@ -2,22 +2,34 @@
 
 use glam::{DVec2, USizeVec2};
 
-/// A cell list over a rectangle.
+/// A cell list over a rectangle, which may repeat along an axis.
 pub struct Grid {
-    cell: f64,
+    /// Sides of a cell, m.
+    cell: DVec2,
     cells: USizeVec2,
+    periodic: [bool; 2],
     start: Vec<u32>,
     points: Vec<u32>,
 }
 
 impl Grid {
-    /// Sorts `position` into cells of about `cell` m a side; a point outside the rectangle counts to the nearest cell.
-    pub fn new(position: &[DVec2], size: DVec2, cell: f64) -> Self {
+    /// Sorts `position` into cells of `cell` m a side or more; a point outside the rectangle counts to the nearest cell.
+    /// `period` is the rectangle's own length along an axis that repeats, 0 along another.
+    pub fn new(position: &[DVec2], size: DVec2, period: DVec2, cell: f64) -> Self {
         // Never many more cells than points, whatever the shape of the rectangle.
         let most = (4 * position.len() + 16) as f64;
         let cell = cell.max((size.x * size.y / most).sqrt()).max(size.max_element() / most);
-        let cells = (size / cell).floor().as_usizevec2() + 1;
-        let mut grid = Self { cell, cells, start: vec![0; cells.x * cells.y + 1], points: vec![0; position.len()] };
+        let periodic = [period.x > 0.0, period.y > 0.0];
+        let whole = (size / cell).floor().as_usizevec2();
+        // Cells that fill a period leave no rest.
+        let along = |axis: usize| match periodic[axis] {
+            true => (whole[axis].max(1), size[axis] / whole[axis].max(1) as f64),
+            false => (whole[axis] + 1, cell),
+        };
+        let [(columns, width), (rows, height)] = [along(0), along(1)];
+        let (cells, cell) = (USizeVec2::new(columns, rows), DVec2::new(width, height));
+        let (start, points) = (vec![0; columns * rows + 1], vec![0; position.len()]);
+        let mut grid = Self { cell, cells, periodic, start, points };
         let of: Vec<u32> = position.iter().map(|&place| grid.index(grid.cell_of(place)) as u32).collect();
         for &cell in &of {
             grid.start[cell as usize + 1] += 1;
@@ -42,23 +54,22 @@ impl Grid {
         (place / self.cell).max(DVec2::ZERO).as_usizevec2().min(self.cells - 1)
     }
 
-    /// The points in the ring of cells at Chebyshev distance `ring` from the cell of `place`.
+    /// The points in the ring of cells at Chebyshev distance `ring` from the cell of `place`, no cell twice.
     pub fn ring(&self, place: DVec2, ring: usize) -> impl Iterator<Item = usize> + '_ {
         let centre = self.cell_of(place);
-        let centre = (centre.x as i64, centre.y as i64);
         let reach = ring as i64;
         (-reach..=reach)
             .flat_map(move |dy| {
                 // Whole rows at the top and the bottom of the ring, two cells on the rows between.
                 let step = if dy.abs() == reach { 1 } else { (2 * reach).max(1) };
-                (-reach..=reach).step_by(step as usize).flat_map(move |dx| self.cell(centre.0 + dx, centre.1 + dy))
+                (-reach..=reach).step_by(step as usize).flat_map(move |dx| self.cell(centre, [dx, dy]))
             })
             .map(|&point| point as usize)
     }
 
     /// Distance within which the rings `0..=ring` around any place hold every point, m.
     pub fn reach(&self, ring: usize) -> f64 {
-        ring as f64 * self.cell
+        ring as f64 * self.cell.min_element()
     }
 
     /// Number of rings after which there is nothing left to find.
@@ -66,13 +77,24 @@ impl Grid {
         self.cells.max_element()
     }
 
-    fn cell(&self, x: i64, y: i64) -> std::slice::Iter<'_, u32> {
-        let inside = x >= 0 && y >= 0 && (x as usize) < self.cells.x && (y as usize) < self.cells.y;
-        let range = if inside {
-            let cell = self.index(USizeVec2::new(x as usize, y as usize));
-            self.start[cell] as usize..self.start[cell + 1] as usize
-        } else {
-            0..0
+    /// The points of the cell `offset` cells from `centre`.
+    fn cell(&self, centre: USizeVec2, offset: [i64; 2]) -> std::slice::Iter<'_, u32> {
+        let along = |axis: usize| {
+            let (count, offset) = (self.cells[axis] as i64, offset[axis]);
+            let at = centre[axis] as i64 + offset;
+            let inside = match self.periodic[axis] {
+                // Half of them on either side.
+                true => -(count - 1) / 2 <= offset && offset <= count / 2,
+                false => (0..count).contains(&at),
+            };
+            inside.then(|| at.rem_euclid(count) as usize)
+        };
+        let range = match (along(0), along(1)) {
+            (Some(x), Some(y)) => {
+                let cell = self.index(USizeVec2::new(x, y));
+                self.start[cell] as usize..self.start[cell + 1] as usize
+            }
+            _ => 0..0,
         };
         self.points[range].iter()
     }

@@ -2,12 +2,14 @@
 
 mod arrangement;
 pub mod grid;
+mod period;
 pub mod voronoi;
 mod wall;
 
 use glam::DVec2;
 
 use crate::case;
+pub use period::{inside, shortest};
 pub use wall::Side;
 
 /// The points of a scene at their initial places, interior points first, boundary points last.
@@ -27,6 +29,8 @@ pub struct Cloud {
     pub spacing: f64,
     /// Width and height of the rectangle, m.
     pub size: DVec2,
+    /// Lengths after which it repeats along x and y, m: its own, or 0 along an axis that ends at walls.
+    pub period: DVec2,
 }
 
 /// Why a cloud could not be laid out.
@@ -48,13 +52,15 @@ impl Cloud {
     pub fn build(case: &case::Case) -> Result<Self, CloudError> {
         let size = DVec2::new(case.domain.width, case.domain.height);
         let cells = wall::cells(size, case.cloud.spacing);
-        let (boundary, sides) = wall::points(size, cells);
-        let mut position = arrangement::interior(&case.cloud, size, cells, &boundary)?;
+        let period = case.domain.period();
+        let lattice = wall::Lattice { size, cells, periodic: case.domain.periodic.each() };
+        let (boundary, sides) = wall::points(&lattice);
+        let mut position = arrangement::interior(&case.cloud, &lattice, &boundary)?;
         arrangement::sort_by_cell(&mut position, 2.0 * case.cloud.spacing);
         let interior = position.len();
         position.extend(boundary);
         let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
-        let cloud = Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size };
+        let cloud = Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size, period };
         Ok(cloud)
     }
 
@@ -89,15 +95,15 @@ impl Cloud {
     }
 }
 
-/// Small clouds of every arrangement, square and 4 : 1, for tests.
+/// Small clouds of every arrangement, square and 4 : 1, between walls and periodic, for tests.
 #[cfg(test)]
 pub(crate) fn test_clouds() -> Vec<Cloud> {
     let mut clouds = Vec::new();
-    for width in [1.0, 4.0] {
+    for (width, periodic) in [(1.0, "none"), (4.0, "none"), (4.0, "x"), (4.0, "y"), (1.0, "both"), (0.6875, "both")] {
         for arrangement in ["regular", "jittered", "random"] {
             let text = format!(
                 "title = 'test'\nfluid.density = 1.0\ntime.end = 1.0\neffects.advection = {{}}\n\
-                 domain = {{ width = {width:?}, height = 1.0 }}\n\
+                 domain = {{ width = {width:?}, height = 1.0, periodic = '{periodic}' }}\n\
                  cloud = {{ arrangement = '{arrangement}', spacing = 0.0625 }}\n"
             );
             let case = case::Case::from_text(&text, std::path::Path::new("test.toml"), &[]).expect("a case");

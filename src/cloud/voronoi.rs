@@ -1,14 +1,16 @@
-//! Voronoi cells of the points, clipped by the rectangle: the geometry of the conservative pressure equation.
+//! Voronoi cells of the points, clipped by the walls of the rectangle: the geometry of the conservative pressure equation.
 //!
 //! Every point clips its own cell from the bisectors with the points around it; no mesh is stored. A pair of points
 //! that share a face of length `A_ij` gets one weight `w_ij = w_ji = A_ij / |d_ij|`, and every point its volume `V_i`.
-//! Then `sum_j w_ij d_ij = -A_i n_i`, `4 V_i = sum_j w_ij |d_ij|^2` inside, and the volumes sum to the area.
+//! Then `sum_j w_ij d_ij = -A_i n_i`, `4 V_i = sum_j w_ij |d_ij|^2` inside, and the volumes sum to the area. Along an axis that
+//! repeats there is no wall, and offsets go the shortest way.
 //! Units: m for faces, m^2 for volumes; the weights have none.
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::grid::Grid;
+use super::{Cloud, inside, shortest};
 
 /// Faces shorter than this fraction of the spacing are left out: lattice points that touch at a corner alone.
 const LEAST_FACE: f64 = 1e-7;
@@ -24,6 +26,19 @@ pub struct Cells {
     pub neighbour: Vec<u32>,
     /// `w_ij` of each face; the same number from both sides.
     pub weight: Vec<f64>,
+    /// The pieces of wall, point by point.
+    pub walls: Vec<WallPiece>,
+}
+
+/// The part of one side of the rectangle that lies on one cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallPiece {
+    /// Whose cell it is on.
+    pub point: usize,
+    /// m
+    pub middle: DVec2,
+    /// `A_i n_i`: outward, as long as the piece, m.
+    pub area: DVec2,
 }
 
 /// One cell on its own.
@@ -31,14 +46,14 @@ struct Cell {
     volume: f64,
     /// Neighbour and weight, ascending by neighbour.
     faces: Vec<(u32, f64)>,
+    walls: Vec<WallPiece>,
 }
 
 impl Cells {
-    /// Clips the cells of `position` inside the rectangle `[0, size]`.
-    pub fn build(position: &[DVec2], size: DVec2, spacing: f64) -> Self {
-        let grid = Grid::new(position, size, 1.5 * spacing);
-        let clip = |point: usize| clip(position, point, size, spacing, &grid);
-        let mut cells: Vec<Cell> = (0..position.len()).into_par_iter().map(clip).collect();
+    /// Clips the cells of a cloud.
+    pub fn build(cloud: &Cloud) -> Self {
+        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, 1.5 * cloud.spacing);
+        let mut cells: Vec<Cell> = (0..cloud.len()).into_par_iter().map(|point| clip(cloud, point, &grid)).collect();
         symmetrise(&mut cells);
         let mut start = Vec::with_capacity(cells.len() + 1);
         start.push(0);
@@ -51,6 +66,7 @@ impl Cells {
             start,
             neighbour: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(neighbour, _)| neighbour)).collect(),
             weight: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(_, weight)| weight)).collect(),
+            walls: cells.into_iter().flat_map(|cell| cell.walls).collect(),
         }
     }
 
@@ -58,6 +74,20 @@ impl Cells {
     pub fn faces(&self, point: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.start[point]..self.start[point + 1];
         range.map(|face| (self.neighbour[face] as usize, self.weight[face]))
+    }
+
+    /// The volume flux out of every cell through the walls, m^2/s, where the fluid at a place on them moves with `velocity`,
+    /// m/s. The midpoint rule leaves a little over, of second order in the spacing, which is spread over the walls: as much
+    /// flows in as out.
+    pub fn wall_flux(&self, velocity: &dyn Fn(DVec2) -> DVec2) -> Vec<f64> {
+        let mut flux = vec![0.0; self.volume.len()];
+        let through = |piece: &WallPiece| velocity(piece.middle).dot(piece.area);
+        let length: f64 = self.walls.iter().map(|piece| piece.area.length()).sum();
+        let excess = self.walls.iter().map(through).sum::<f64>() / length;
+        for piece in &self.walls {
+            flux[piece.point] += through(piece) - excess * piece.area.length();
+        }
+        flux
     }
 
     /// The most faces that any cell has.
@@ -112,9 +142,13 @@ impl Polygon {
     }
 }
 
-fn clip(position: &[DVec2], point: usize, size: DVec2, spacing: f64, grid: &Grid) -> Cell {
+fn clip(cloud: &Cloud, point: usize, grid: &Grid) -> Cell {
+    let Cloud { position, size, period, spacing, .. } = cloud;
     let own = position[point];
-    let (low, high) = (-own, size - own);
+    // From wall to wall; along a period as far as the point's own image can matter.
+    let repeats = period.cmpgt(DVec2::ZERO);
+    let low = DVec2::select(repeats, -0.5 * *period, -own);
+    let high = DVec2::select(repeats, 0.5 * *period, *size - own);
     let mut polygon = Polygon::default();
     polygon
         .corners
@@ -122,23 +156,32 @@ fn clip(position: &[DVec2], point: usize, size: DVec2, spacing: f64, grid: &Grid
     // Ring by ring, until no point farther away can reach the cell.
     for ring in 0..=grid.rings() {
         for other in grid.ring(own, ring).filter(|&other| other != point) {
-            let offset = position[other] - own;
+            let offset = shortest(position[other] - own, *period);
             polygon.cut(offset, 0.5 * offset.length_squared(), Across::Point(other as u32));
         }
         if 2.0 * polygon.reach() <= grid.reach(ring) {
             break;
         }
     }
-    let mut cell = Cell { volume: 0.0, faces: Vec::with_capacity(polygon.corners.len()) };
+    let mut cell = Cell { volume: 0.0, faces: Vec::with_capacity(polygon.corners.len()), walls: Vec::new() };
     for k in 0..polygon.corners.len() {
         let (from, across) = polygon.corners[k];
         let (to, _) = polygon.corners[(k + 1) % polygon.corners.len()];
         cell.volume += 0.5 * from.perp_dot(to);
         let length = from.distance(to);
-        if let Across::Point(other) = across
-            && length > LEAST_FACE * spacing
-        {
-            cell.faces.push((other, length / position[other as usize].distance(own)));
+        if length <= LEAST_FACE * spacing {
+            continue;
+        }
+        match across {
+            Across::Point(other) => {
+                let distance = shortest(position[other as usize] - own, *period).length();
+                cell.faces.push((other, length / distance));
+            }
+            // Corners run against the clock: outward is to the right.
+            Across::Wall => {
+                let middle = inside(own + 0.5 * (from + to), *period);
+                cell.walls.push(WallPiece { point, middle, area: -(to - from).perp() });
+            }
         }
     }
     cell.faces.sort_unstable_by_key(|&(neighbour, _)| neighbour);

@@ -1,5 +1,7 @@
 //! The four sides of the rectangle and the points on them.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use crate::case::{Boundaries, Wall};
@@ -40,21 +42,63 @@ pub(super) fn cells(size: DVec2, spacing: f64) -> [usize; 2] {
     [(size.x / spacing).round().max(1.0) as usize, (size.y / spacing).round().max(1.0) as usize]
 }
 
-/// The lattice place `(i, j)`; the last of each axis falls on the far wall exactly.
-pub(super) fn lattice(size: DVec2, [nx, ny]: [usize; 2], i: usize, j: usize) -> DVec2 {
-    let along = |k: usize, n: usize, length: f64| if k == n { length } else { length * k as f64 / n as f64 };
-    DVec2::new(along(i, nx, size.x), along(j, ny, size.y))
+/// The square lattice over the rectangle: on the walls where an axis ends at them, half a spacing off the seam where it
+/// repeats.
+pub(super) struct Lattice {
+    /// Width and height of the rectangle, m.
+    pub size: DVec2,
+    /// Number of spacings along each axis.
+    pub cells: [usize; 2],
+    pub periodic: [bool; 2],
+}
+
+impl Lattice {
+    /// The place `(i, j)`; the last of an axis that ends at walls falls on the far one exactly.
+    pub fn place(&self, i: usize, j: usize) -> DVec2 {
+        let along = |k: usize, axis: usize| {
+            let (length, n) = (self.size[axis], self.cells[axis]);
+            match self.periodic[axis] {
+                true => length * (k as f64 + 0.5) / n as f64,
+                false if k == n => length,
+                false => length * k as f64 / n as f64,
+            }
+        };
+        DVec2::new(along(i, 0), along(j, 1))
+    }
+
+    /// The numbers of the places along an axis that are not on walls.
+    pub fn inner(&self, axis: usize) -> Range<usize> {
+        usize::from(!self.periodic[axis])..self.cells[axis]
+    }
+
+    /// Number of places that are not on walls.
+    pub fn interior(&self) -> usize {
+        self.inner(0).len() * self.inner(1).len()
+    }
 }
 
 /// Points on the walls, corners included, one lattice spacing apart, and the sides that each lies on.
-pub(super) fn points(size: DVec2, [nx, ny]: [usize; 2]) -> (Vec<DVec2>, Vec<Vec<Side>>) {
+pub(super) fn points(lattice: &Lattice) -> (Vec<DVec2>, Vec<Vec<Side>>) {
+    let [nx, ny] = lattice.cells;
+    let [x, y] = lattice.periodic;
     let mut places: Vec<[usize; 2]> = Vec::with_capacity(2 * (nx + ny));
-    places.extend((0..=nx).map(|i| [i, 0]));
-    places.extend((1..ny).flat_map(|j| [[0, j], [nx, j]]));
-    places.extend((0..=nx).map(|i| [i, ny]));
-    let position = places.iter().map(|&[i, j]| lattice(size, [nx, ny], i, j)).collect();
+    let along = if x { 0..nx } else { 0..nx + 1 };
+    let ends = |periodic: bool, last: usize| if periodic { vec![] } else { vec![0, last] };
+    if !y {
+        places.extend(along.clone().map(|i| [i, 0]));
+    }
+    places.extend(lattice.inner(1).flat_map(|j| ends(x, nx).into_iter().map(move |i| [i, j])));
+    if !y {
+        places.extend(along.map(|i| [i, ny]));
+    }
+    let position = places.iter().map(|&[i, j]| lattice.place(i, j)).collect();
     let sides = places.iter().map(|&[i, j]| {
-        let touching = [(i == 0, Side::Left), (i == nx, Side::Right), (j == 0, Side::Bottom), (j == ny, Side::Top)];
+        let touching = [
+            (!x && i == 0, Side::Left),
+            (!x && i == nx, Side::Right),
+            (!y && j == 0, Side::Bottom),
+            (!y && j == ny, Side::Top),
+        ];
         touching.iter().filter(|(on, _)| *on).map(|&(_, side)| side).collect()
     });
     (position, sides.collect())

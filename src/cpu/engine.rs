@@ -10,6 +10,7 @@ use crate::cpu::operations::moments::WeightFunction;
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::rows::{self, Lists};
+use crate::cpu::operations::space::{Domain, Space};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
@@ -18,7 +19,7 @@ use crate::engine::{
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
-use crate::with_weight;
+use crate::{with_space, with_weight};
 
 /// Steps between two looks for numbers that are none.
 const WATCH_EVERY: u32 = 10;
@@ -27,6 +28,8 @@ const WATCH_EVERY: u32 = 10;
 pub struct CpuEngine<T: Real> {
     scene: Arc<Scene>,
     fields: Fields<T>,
+    /// The shape of the domain.
+    domain: Domain<T>,
     /// Reciprocals of `Volume`: the solvers' loops divide by it in every iteration.
     per_volume: Vec<T>,
     direct: Option<DirectSolver>,
@@ -52,10 +55,16 @@ impl<T: Real> CpuEngine<T> {
             fields.write(buffer, &data)?;
         }
         let per_volume = reciprocals(fields.real(Buffer::Volume)?);
-        Ok(Self { scene, fields, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
+        let domain = Domain::new(scene.constants.bounds, scene.constants.period);
+        Ok(Self { scene, fields, domain, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
-    fn fits<'a, W: WeightFunction>(&'a self, points: Points, weight: W) -> Result<Fits<'a, T, W>, EngineError> {
+    fn fits<'a, W: WeightFunction, S: Space<T>>(
+        &'a self,
+        points: Points,
+        weight: W,
+        space: S,
+    ) -> Result<Fits<'a, T, W, S>, EngineError> {
         Ok(Fits {
             position: self.fields.real(Buffer::Position(points))?,
             support: self.fields.real(Buffer::Support(points))?,
@@ -64,6 +73,7 @@ impl<T: Real> CpuEngine<T> {
             capacity: self.scene.sizes.capacity,
             factor: self.fields.real(Buffer::Factor(points))?,
             weight,
+            space,
         })
     }
 
@@ -83,13 +93,14 @@ impl<T: Real> CpuEngine<T> {
         Ok(Gradient { lists: self.lists()?, row: self.fields.real(Buffer::GradientRow)? })
     }
 
-    fn search(&self, points: Points) -> Result<Search<'_, T>, EngineError> {
+    fn search<S: Space<T>>(&self, points: Points, space: S) -> Result<Search<'_, T, S>, EngineError> {
         Ok(Search {
             position: self.fields.real(Buffer::Position(points))?,
             points: self.scene.sizes.points,
             grid: &self.scene.constants.grid,
             start: self.fields.index(Buffer::CellStart(points))?,
             sorted: self.fields.index(Buffer::CellPoints(points))?,
+            space,
         })
     }
 
@@ -127,13 +138,13 @@ impl<T: Real> CpuEngine<T> {
             Operation::FindNeighbours(points) => {
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                let most = neighbours::find_neighbours(
-                    self.search(points)?,
+                let most = with_space!(self.domain, space => neighbours::find_neighbours(
+                    self.search(points, space)?,
                     T::from_f64(constants.radius),
                     sizes.capacity,
                     &mut found,
                     &mut count,
-                );
+                ));
                 self.fields.put_index(Buffer::Neighbours(points), found);
                 self.fields.put_index(Buffer::NeighbourCount(points), count);
                 if most > sizes.capacity {
@@ -147,7 +158,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
                 let mut rung = self.fields.take_index(Buffer::Rung(points))?;
-                with_weight!(constants.weight, weight => fit::factorise(
+                with_weight!(constants.weight, weight => with_space!(self.domain, space => fit::factorise(
+                    space,
                     self.fields.real(Buffer::Position(points))?,
                     self.fields.real(Buffer::Support(points))?,
                     self.fields.index(Buffer::Neighbours(points))?,
@@ -156,7 +168,7 @@ impl<T: Real> CpuEngine<T> {
                     weight,
                     &mut factor,
                     &mut rung,
-                ));
+                )));
                 self.fields.put(Buffer::Factor(points), factor);
                 self.fields.put_index(Buffer::Rung(points), rung);
             }
@@ -166,8 +178,8 @@ impl<T: Real> CpuEngine<T> {
                 let mut support = self.fields.take(Buffer::Support(points))?;
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                with_weight!(constants.weight, weight => fit::widen_support(
-                    self.search(points)?,
+                with_weight!(constants.weight, weight => with_space!(self.domain, space => fit::widen_support(
+                    self.search(points, space)?,
                     sizes.capacity,
                     weight,
                     &mut support,
@@ -175,7 +187,7 @@ impl<T: Real> CpuEngine<T> {
                     &mut count,
                     &mut factor,
                     &mut rung,
-                ));
+                )));
                 self.fields.put(Buffer::Factor(points), factor);
                 self.fields.put_index(Buffer::Rung(points), rung);
                 self.fields.put(Buffer::Support(points), support);
@@ -184,14 +196,14 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::AssembleLaplacian => {
                 with_taken!(self.fields, [row = Buffer::LaplacianRow], {
-                    with_weight!(constants.weight, weight =>
-                        rows::assemble_laplacian(self.fits(Points::Standing, weight)?, &mut row));
+                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
+                        rows::assemble_laplacian(self.fits(Points::Standing, weight, space)?, &mut row)));
                 });
             }
             Operation::AssembleGradient => {
                 with_taken!(self.fields, [row = Buffer::GradientRow], {
-                    with_weight!(constants.weight, weight =>
-                        rows::assemble_gradient(self.fits(Points::Standing, weight)?, &mut row));
+                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
+                        rows::assemble_gradient(self.fits(Points::Standing, weight, space)?, &mut row)));
                 });
             }
             _ => {
@@ -222,20 +234,22 @@ impl<T: Real> CpuEngine<T> {
             Operation::FitVelocity(points) => {
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let values = self.fields.real(moving)?;
-                    with_weight!(constants.weight, weight =>
-                        fits::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
+                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
+                        fits::fit_velocity(self.fits(points, weight, space)?, values, &mut coefficients)));
                 });
             }
             Operation::MovePoints => {
                 let place = Buffer::Position(Points::Moved);
                 with_taken!(self.fields, [moved = place], {
-                    let standing = self.standing(Buffer::Position)?;
-                    remap::move_points(standing, self.fields.real(moving)?, dt, sizes.interior, &mut moved);
+                    let (standing, velocity) = (self.standing(Buffer::Position)?, self.fields.real(moving)?);
+                    with_space!(self.domain, space =>
+                        remap::move_points(space, standing, velocity, dt, sizes.interior, &mut moved));
                 });
             }
             Operation::RemapForward => {
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_forward(
+                    with_space!(self.domain, space => remap::remap_forward(
+                        space,
                         self.standing(Buffer::Position)?,
                         self.fields.real(Buffer::Position(Points::Moved))?,
                         self.fields.real(Buffer::Support(Points::Moved))?,
@@ -243,7 +257,7 @@ impl<T: Real> CpuEngine<T> {
                         self.fields.real(Buffer::Coefficients)?,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
             Operation::KeepVelocity => {
@@ -254,7 +268,8 @@ impl<T: Real> CpuEngine<T> {
             _ => {
                 let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_departure(
+                    with_space!(self.domain, space => remap::remap_departure(
+                        space,
                         self.standing(Buffer::Position)?,
                         self.standing(Buffer::Support)?,
                         remap::Around {
@@ -262,13 +277,12 @@ impl<T: Real> CpuEngine<T> {
                             count: self.fields.index(around_count)?,
                             capacity: scene.plan.around_capacity(sizes),
                         },
-                        constants.size.to_array().map(T::from_f64),
                         self.fields.real(moving)?,
                         self.fields.real(Buffer::Coefficients)?,
                         dt,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
         }
@@ -311,15 +325,16 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::CorrectByAdjoint => {
                 with_taken!(self.fields, [projected = Buffer::Projected], {
-                    conservative::correct_by_adjoint(
+                    with_space!(self.domain, space => conservative::correct_by_adjoint(
                         self.faces()?,
+                        space,
                         self.standing(Buffer::Position)?,
                         self.fields.real(Buffer::Volume)?,
                         self.fields.real(Buffer::Pressure)?,
                         kick_per_density,
                         sizes.interior,
                         &mut projected,
-                    );
+                    ));
                 });
             }
             Operation::HoldWalls => {
@@ -349,13 +364,9 @@ impl<T: Real> CpuEngine<T> {
                 with_taken!(self.fields, [source = Buffer::Source], {
                     let scale = T::from_f64(-density_per_kick);
                     let velocity = self.fields.real(Buffer::Projected)?;
-                    conservative::divergence(
-                        self.faces()?,
-                        self.standing(Buffer::Position)?,
-                        velocity,
-                        scale,
-                        &mut source,
-                    );
+                    let (faces, position) = (self.faces()?, self.standing(Buffer::Position)?);
+                    with_space!(self.domain, space =>
+                        conservative::divergence(faces, space, position, velocity, scale, &mut source));
                 });
             }
             Operation::CollocatedSource => {
@@ -370,6 +381,12 @@ impl<T: Real> CpuEngine<T> {
                         [sizes.interior, sizes.points],
                         &mut source,
                     );
+                });
+            }
+            Operation::AddWallFlux => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    let scale = T::from_f64(-density_per_kick);
+                    conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, scale, &mut source);
                 });
             }
             Operation::DirectSolve => self.solve_directly()?,
@@ -534,6 +551,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
             Operation::Divergence
+            | Operation::AddWallFlux
             | Operation::CollocatedSource
             | Operation::ConjugateGradient
             | Operation::Bicgstab
@@ -575,12 +593,18 @@ impl<T: Real> Engine for CpuEngine<T> {
         if scene.cells().is_some() {
             let mut flux = vec![T::zero(); scene.padded()];
             let position = self.standing(Buffer::Position)?;
-            conservative::divergence(self.faces()?, position, velocity, T::from_f64(1.0), &mut flux);
+            let (faces, one) = (self.faces()?, T::from_f64(1.0));
+            with_space!(self.domain, space =>
+                conservative::divergence(faces, space, position, velocity, one, &mut flux));
+            if scene.plan.through_flow {
+                conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, one, &mut flux);
+            }
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
-            with_weight!(scene.constants.weight, weight => fits::fitted_divergence(
-                self.fits(Points::Standing, weight)?, velocity, scene.sizes.interior, &mut divergence));
+            let (weight, end) = (scene.constants.weight, scene.sizes.interior);
+            with_weight!(weight, weight => with_space!(self.domain, space => fits::fitted_divergence(
+                self.fits(Points::Standing, weight, space)?, velocity, end, &mut divergence)));
             measurement.divergence = measure::rms(&divergence, points);
         }
         self.fields.put(Buffer::Reported, reported);

@@ -35,6 +35,7 @@ pub trait Real:
     fn to_f64(self) -> f64;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
+    fn floor(self) -> Self;
     fn is_finite(self) -> bool;
 
     fn zero() -> Self {
@@ -132,6 +133,11 @@ macro_rules! real {
             #[inline(always)]
             fn abs(self) -> Self {
                 <$real>::abs(self)
+            }
+
+            #[inline(always)]
+            fn floor(self) -> Self {
+                <$real>::floor(self)
             }
 
             #[inline(always)]

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use glam::DVec2;
+
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
 use crate::cpu::operations::moments::{COEFFICIENTS, FACTOR, PIVOT_THRESHOLD};
 use crate::cpu::operations::pressure::Stop;
@@ -110,10 +112,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("NO_POINT", NO_POINT as usize),
     ];
     let real: &[(&str, f64)] = &[
-        ("CELLS_PER_METRE", constants.grid.per_metre),
         ("RADIUS", constants.radius),
-        ("WIDTH", constants.size.x),
-        ("HEIGHT", constants.size.y),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
         ("STOP_FLOOR", constants.floor),
@@ -126,6 +125,20 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     for (name, value) in real {
         line(&mut text, format_args!("const {name}: real = {value:e};"));
     }
+    let [low, high] = constants.bounds;
+    let per_period = constants.period.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
+    let pairs: &[(&str, DVec2)] = &[
+        ("CELLS_PER_METRE", constants.grid.per_metre.into()),
+        ("LOWEST", low),
+        ("HIGHEST", high),
+        ("PERIOD", constants.period),
+        ("PER_PERIOD", per_period),
+    ];
+    for (name, DVec2 { x, y }) in pairs {
+        line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));
+    }
+    let [x, y] = constants.grid.periodic;
+    line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");
     line(&mut text, format_args!("const WIDER = array<real, WIDER_STEPS>({wider});"));
     for names in [Word::NAMES, Halted::NAMES, Phase::NAMES, Ended::NAMES, Scalar::NAMES, Time::NAMES, Extent::NAMES] {

@@ -81,6 +81,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
         Operation::Predict => once(stage!("predict", Points)),
         Operation::Divergence => once(stage!("divergence", Points)),
+        Operation::AddWallFlux => once(stage!("add_wall_flux", Points)),
         Operation::CollocatedSource => once(stage!("collocated_source", Points)),
         Operation::ConjugateGradient => Stages::Solve {
             check: vec![
@@ -154,6 +155,10 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
             Weight::Quadratic => text!("weight/quadratic"),
             Weight::Smooth => text!("weight/smooth"),
         },
+        "space" if scene.constants.grid.periodic == [false; 2] => text!("space/walled"),
+        "space" => text!("space/periodic"),
+        "wall_flux_of" if scene.plan.through_flow => text!("wall_flux/prescribed"),
+        "wall_flux_of" => text!("wall_flux/none"),
         "matrix" if conservative => text!("matrix/conservative"),
         "matrix" => text!("matrix/collocated"),
         "density" if conservative => text!("density/conservative"),

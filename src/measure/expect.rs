@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{LineMeasure, MeasureError, Profile, Sampler};
+use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
+use crate::exact::Exact;
 use crate::snapshot::Snapshot;
 
 /// One row of `[expect]` with its measured value. `None` stands where the run gave no finite number.
@@ -14,13 +15,13 @@ pub struct ExpectationResult {
     pub name: String,
     /// In words: `minimum of u along x = 0.5`.
     pub quantity: String,
-    /// Coordinate of the computed extreme along the line, m; a profile has none.
+    /// Coordinate of the computed extreme along the line, m; profiles and errors have none.
     pub position: Option<f64>,
-    /// The computed extreme, or the rms difference from the profile; m/s or Pa.
+    /// The computed extreme, or the rms difference from the profile or the exact field; m/s or Pa.
     pub value: Option<f64>,
-    /// The published extreme, or the published profile's largest magnitude; m/s or Pa.
+    /// The published extreme, the published profile's largest magnitude, or the rms of the exact field; m/s or Pa.
     pub reference: f64,
-    /// `|value - reference| / |reference|`, or the rms difference over the largest magnitude.
+    /// `|value - reference| / |reference|`, or the rms difference over the reference.
     pub error: Option<f64>,
     pub tolerance: f64,
     pub pass: bool,
@@ -40,14 +41,26 @@ pub fn evaluate(
     if case.expect.is_empty() {
         return Ok(Vec::new());
     }
-    let sampler = Sampler::new(&snapshot.position, case.cloud.spacing)?;
+    let sampler = Sampler::periodic(&snapshot.position, case.cloud.spacing, case.domain.period())?;
+    let exact = Exact::of(case);
     // A point that is not a number fails every row, however far from the row's line.
     let finite = snapshot.velocity.iter().all(|u| u.is_finite()) && snapshot.pressure.iter().all(|p| p.is_finite());
     case.expect
         .iter()
         .map(|(name, row)| {
-            let line = LineMeasure::new(&sampler, snapshot, &case.domain, row.component, row.line)?;
-            let result = measured(name, row, &line, profiles.get(name))?;
+            let fail = |what: &str| MeasureError::Expectation { name: name.clone(), what: what.to_owned() };
+            let found = match row.measure {
+                Measure::Error => {
+                    let exact = exact.as_ref().ok_or_else(|| fail("there is no exact solution"))?;
+                    Found::of_field(FieldError::new(snapshot, exact, row.component))
+                }
+                _ => {
+                    let at = row.line.ok_or_else(|| fail("`line` is missing"))?;
+                    let line = LineMeasure::new(&sampler, snapshot, &case.domain, row.component, at)?;
+                    Found::along_line(row, &line, profiles.get(name), &fail)?
+                }
+            };
+            let result = judged(name, row, found, &fail)?;
             let nothing =
                 |result| ExpectationResult { position: None, value: None, error: None, pass: false, ..result };
             Ok(if finite { result } else { nothing(result) })
@@ -55,25 +68,46 @@ pub fn evaluate(
         .collect()
 }
 
-fn measured(
+/// What was measured of a row.
+struct Found {
+    /// m
+    position: Option<f64>,
+    value: f64,
+    reference: f64,
+    difference: f64,
+}
+
+impl Found {
+    fn of_field(error: FieldError) -> Self {
+        let FieldError { difference, exact } = error;
+        Self { position: None, value: difference, reference: exact, difference }
+    }
+
+    fn along_line(
+        row: &Expectation,
+        line: &LineMeasure,
+        profile: Option<&Profile>,
+        fail: &dyn Fn(&str) -> MeasureError,
+    ) -> Result<Self, MeasureError> {
+        if let Some(extreme) = line.measured(row.measure) {
+            let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+            let difference = (extreme.value - reference).abs();
+            return Ok(Self { position: Some(extreme.position), value: extreme.value, reference, difference });
+        }
+        let profile = profile.ok_or_else(|| fail("`profile` was not read"))?;
+        let rms = rms_difference(line, profile);
+        let largest = profile.value.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+        Ok(Self { position: None, value: rms, reference: largest, difference: rms })
+    }
+}
+
+fn judged(
     name: &str,
     row: &Expectation,
-    line: &LineMeasure,
-    profile: Option<&Profile>,
+    found: Found,
+    fail: &dyn Fn(&str) -> MeasureError,
 ) -> Result<ExpectationResult, MeasureError> {
-    let fail = |what: &str| MeasureError::Expectation { name: name.to_owned(), what: what.to_owned() };
-    let (position, value, reference, difference) = match line.measured(row.measure) {
-        Some(extreme) => {
-            let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
-            (Some(extreme.position), extreme.value, reference, (extreme.value - reference).abs())
-        }
-        None => {
-            let profile = profile.ok_or_else(|| fail("`profile` was not read"))?;
-            let rms = rms_difference(line, profile);
-            let largest = profile.value.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
-            (None, rms, largest, rms)
-        }
-    };
+    let Found { position, value, reference, difference } = found;
     if reference == 0.0 {
         return Err(fail("the published value is zero, so a relative error has no meaning"));
     }
@@ -102,15 +136,18 @@ fn quantity(row: &Expectation) -> String {
         Measure::Minimum => "minimum of",
         Measure::Maximum => "maximum of",
         Measure::Profile => "profile of",
+        Measure::Error => "error of",
     };
     let component = match row.component {
         Component::U => "u",
         Component::V => "v",
         Component::P => "p",
+        Component::Velocity => "the velocity",
     };
     match row.line {
-        Line::X(x) => format!("{measure} {component} along x = {x}"),
-        Line::Y(y) => format!("{measure} {component} along y = {y}"),
+        Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),
+        Some(Line::Y(y)) => format!("{measure} {component} along y = {y}"),
+        None => format!("{measure} {component} over all points"),
     }
 }
 
@@ -123,7 +160,7 @@ mod tests {
     fn expectation(measure: Measure, value: Option<f64>) -> Expectation {
         Expectation {
             component: Component::U,
-            line: Line::X(0.5),
+            line: Some(Line::X(0.5)),
             measure,
             value,
             profile: None,

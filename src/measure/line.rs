@@ -48,6 +48,8 @@ impl<'a> LineMeasure<'a> {
             Component::U => snapshot.velocity.iter().map(|u| u.x).collect(),
             Component::V => snapshot.velocity.iter().map(|u| u.y).collect(),
             Component::P => Cow::Borrowed(&snapshot.pressure),
+            // Both at once: how fast.
+            Component::Velocity => snapshot.velocity.iter().map(|u| u.length()).collect(),
         };
         if field.len() != sampler.points() {
             let name = if component == Component::P { "pressure" } else { "velocity" };
@@ -103,7 +105,7 @@ impl<'a> LineMeasure<'a> {
         match measure {
             Measure::Minimum => Some(self.minimum()),
             Measure::Maximum => Some(self.maximum()),
-            Measure::Profile => None,
+            Measure::Profile | Measure::Error => None,
         }
     }
 
@@ -134,6 +136,7 @@ impl<'a> LineMeasure<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Axes;
     use crate::measure::sampler::tests::jittered_cloud;
 
     fn flow(n: usize) -> Snapshot {
@@ -143,7 +146,7 @@ mod tests {
         Snapshot { time: 0.0, position, velocity, pressure }
     }
 
-    const DOMAIN: Domain = Domain { width: 1.0, height: 1.0 };
+    const DOMAIN: Domain = Domain { width: 1.0, height: 1.0, periodic: Axes::None };
 
     #[test]
     fn an_extreme_is_found_between_the_samples() {

@@ -3,7 +3,9 @@
 mod cells;
 mod error;
 mod expect;
+mod field;
 mod fit;
+mod images;
 mod line;
 mod sampler;
 
@@ -11,7 +13,9 @@ pub use crate::case::Profile;
 pub use cells::CellList;
 pub use error::MeasureError;
 pub use expect::{ExpectationResult, evaluate};
+pub use field::FieldError;
 pub use fit::{Degree, Fit};
+pub use images::Images;
 pub use line::{Extreme, LineMeasure};
 pub use sampler::{Sampler, Stencil};
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{CellList, Degree, Fit, MeasureError};
+use super::{CellList, Degree, Fit, Images, MeasureError};
 
 /// The ladder of fits, best first: degree, radius in spacings. At walls and corners the circle is cut, so the cubic
 /// fit gets wider circles before the degree is lowered.
@@ -37,7 +37,7 @@ impl Stencil {
 /// Evaluates fields that live on scattered points.
 #[derive(Debug, Clone)]
 pub struct Sampler<'a> {
-    position: &'a [DVec2],
+    images: Images<'a>,
     cells: CellList,
     spacing: f64,
 }
@@ -48,14 +48,24 @@ impl<'a> Sampler<'a> {
     /// # Errors
     /// No point, a position that is not finite, or a spacing that is not above zero.
     pub fn new(position: &'a [DVec2], spacing: f64) -> Result<Self, MeasureError> {
+        Self::periodic(position, spacing, DVec2::ZERO)
+    }
+
+    /// The same in a domain that repeats after `period`, m; 0 along an axis that does not.
+    ///
+    /// # Errors
+    /// As [`Sampler::new`].
+    pub fn periodic(position: &'a [DVec2], spacing: f64, period: DVec2) -> Result<Self, MeasureError> {
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(MeasureError::Spacing(spacing));
         }
-        Ok(Self { position, cells: CellList::new(position, 1.6 * spacing)?, spacing })
+        let widest = LADDER.iter().map(|(_, radius)| radius * spacing).fold(0.0, f64::max);
+        let images = Images::new(position, period, widest);
+        Ok(Self { cells: CellList::new(&images.position, 1.6 * spacing)?, images, spacing })
     }
 
     pub fn points(&self) -> usize {
-        self.position.len()
+        self.images.points()
     }
 
     pub fn spacing(&self) -> f64 {
@@ -74,7 +84,8 @@ impl<'a> Sampler<'a> {
                 }
             }
         }
-        Stencil { points: vec![self.cells.nearest(self.position, at)], weights: vec![1.0], degree: None }
+        let nearest = self.images.point(self.cells.nearest(&self.images.position, at));
+        Stencil { points: vec![nearest], weights: vec![1.0], degree: None }
     }
 
     /// A field's value at a place; `field` holds one value a point.
@@ -95,10 +106,10 @@ impl<'a> Sampler<'a> {
 
     fn neighbours(&self, at: DVec2, radius: f64) -> (Vec<usize>, Vec<DVec2>) {
         let (mut points, mut offset) = (Vec::with_capacity(64), Vec::with_capacity(64));
-        self.cells.visit(at, radius, |point| {
-            let d = self.position[point] - at;
+        self.cells.visit(at, radius, |entry| {
+            let d = self.images.position[entry] - at;
             if d.length_squared() < radius * radius {
-                points.push(point);
+                points.push(self.images.point(entry));
                 offset.push(d);
             }
         });

@@ -43,6 +43,8 @@ pub enum Buffer {
     FaceWeight,
     /// Slots of `FaceNeighbours` in use.
     FaceCount,
+    /// Volume flux out of every cell through the walls that it has a piece of, m^2/s. Through-flow alone.
+    WallFlux,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
     /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
@@ -109,6 +111,7 @@ impl Buffer {
             Buffer::FaceNeighbours => ("face_neighbours", None),
             Buffer::FaceWeight => ("face_weight", None),
             Buffer::FaceCount => ("face_count", None),
+            Buffer::WallFlux => ("wall_flux", None),
             Buffer::Normal => ("normal", None),
             Buffer::LaplacianRow => ("laplacian_row", None),
             Buffer::GradientRow => ("gradient_row", None),

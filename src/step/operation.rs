@@ -62,6 +62,8 @@ pub enum Operation {
     Predict,
     /// Source of the conservative pressure equation: the volume flux of `u*` out of every cell.
     Divergence,
+    /// Adds to it what the walls let through.
+    AddWallFlux,
     /// Source of the collocated pressure equation: the fitted divergence inside, the normal velocity to be stopped at walls.
     CollocatedSource,
     /// Solves the conservative equation: Jacobi-preconditioned conjugate gradients.
@@ -101,6 +103,7 @@ impl Operation {
             Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
+            Operation::AddWallFlux => "add_wall_flux",
             Operation::CollocatedSource => "collocated_source",
             Operation::ConjugateGradient => "conjugate_gradient",
             Operation::Bicgstab => "bicgstab",
@@ -149,6 +152,8 @@ impl Operation {
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
             Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
+            // The source is there already: a sum, as the kick of a force is.
+            Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
             Operation::ConjugateGradient => with(faces.to_vec(), &[Diagonal, Volume, Source]),
             Operation::Bicgstab | Operation::DirectSolve => with(plan.matrix(), &[Diagonal, Volume, Source]),
@@ -180,7 +185,7 @@ impl Operation {
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]
             }
-            Operation::Divergence | Operation::CollocatedSource => vec![Source],
+            Operation::Divergence | Operation::AddWallFlux | Operation::CollocatedSource => vec![Source],
             Operation::ConjugateGradient => vec![Pressure, Residual, Direction, Product],
             Operation::Bicgstab => {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{Case, Gradient, PressureForm, Remap, Solver, Splitting};
+use crate::case::{Axes, Case, Gradient, PressureForm, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -30,6 +30,8 @@ pub struct Plan {
     /// The pressure equation, where the scene has one.
     pub form: Option<PressureForm>,
     pub splitting: Splitting,
+    /// Fluid comes and goes through the sides.
+    pub through_flow: bool,
 }
 
 impl Plan {
@@ -40,6 +42,7 @@ impl Plan {
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
+        let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
         let standing = Points::Standing;
         let gradient = effects.pressure.as_ref().map(|pressure| pressure.gradient());
         let mut setup =
@@ -81,6 +84,9 @@ impl Plan {
                     CollocatedSource
                 }
             });
+            if through_flow && !collocated {
+                kick.push(AddWallFlux);
+            }
             kick.push(match pressure.solver() {
                 Solver::ConjugateGradient => ConjugateGradient,
                 Solver::Bicgstab => Bicgstab,
@@ -97,7 +103,8 @@ impl Plan {
         if reflects {
             kick.push(Reflect);
         }
-        Self { setup, drift, kick, form: effects.pressure.as_ref().map(|pressure| pressure.form), splitting }
+        let form = effects.pressure.as_ref().map(|pressure| pressure.form);
+        Self { setup, drift, kick, form, splitting, through_flow }
     }
 
     /// Every operation, setup first.

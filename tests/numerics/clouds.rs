@@ -30,7 +30,7 @@ fn clouds() -> Vec<(String, Cloud, [usize; 2])> {
 
 /// Least distance of any two points, over the spacing.
 fn least_distance(cloud: &Cloud) -> f64 {
-    let grid = Grid::new(&cloud.position, cloud.size, cloud.spacing);
+    let grid = Grid::new(&cloud.position, cloud.size, cloud.period, cloud.spacing);
     let mut least = f64::INFINITY;
     for (point, &place) in cloud.position.iter().enumerate() {
         let near = (0..=1).flat_map(|ring| grid.ring(place, ring)).filter(|&other| other != point);

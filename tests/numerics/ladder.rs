@@ -34,7 +34,7 @@ fn groups() -> (Cloud, [std::ops::Range<usize>; 4]) {
     });
     let position = parts.concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    (Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size }, ranges)
+    (Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO }, ranges)
 }
 
 fn unbounded() -> stillpoint::case::Case {

@@ -210,7 +210,7 @@ fn the_row_of_a_run_measures_its_snapshot() {
     let (outcome, rows) = run(&cavity(&["cloud.arrangement=jittered"]));
     let last = rows.last().expect("a row");
     let cloud = stillpoint::cloud::Cloud::build(&cavity(&["cloud.arrangement=jittered"])).expect("a cloud");
-    let cells = stillpoint::cloud::voronoi::Cells::build(&cloud.position, cloud.size, cloud.spacing);
+    let cells = stillpoint::cloud::voronoi::Cells::build(&cloud);
     let velocity = &outcome.snapshot.velocity;
     let energy: f64 = velocity.iter().zip(&cells.volume).map(|(u, v)| 0.5 * v * u.length_squared()).sum();
     assert!((last.kinetic_energy - energy).abs() < 1e-13, "{} {energy}", last.kinetic_energy);

@@ -23,7 +23,7 @@ fn clouds() -> Vec<(String, Cloud)> {
 }
 
 fn cells(cloud: &Cloud) -> Cells {
-    Cells::build(&cloud.position, cloud.size, cloud.spacing)
+    Cells::build(cloud)
 }
 
 /// `sum_j w_ij d_ij` and `sum_j w_ij |d_ij|^2 - 4 V_i` of one cell, in spacings.

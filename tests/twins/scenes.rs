@@ -97,7 +97,7 @@ fn ladder() -> Scene {
     ]
     .concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size };
+    let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO };
     let mut case = cavity_of(1, &["domain.width=40.0", "domain.height=40.0"]);
     case.effects.pressure = None;
     Scene::with_cloud(&case, cloud).expect("a scene")

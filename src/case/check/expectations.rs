@@ -15,13 +15,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
 }
 
 fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
-    let (at, length) = match expectation.line {
-        Line::X(x) => (x, case.domain.width),
-        Line::Y(y) => (y, case.domain.height),
-    };
-    if !(0.0..=length).contains(&at) {
-        return Err(Fault::range(&key("line")));
-    }
+    check_line(case, expectation, key)?;
     if expectation.component == Component::P && case.effects.pressure.is_none() {
         return Err(Fault::reason(&key("component"), "there is no pressure: the table effects.pressure is absent"));
     }
@@ -35,24 +29,51 @@ fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Strin
     Ok(())
 }
 
-/// An extreme has a value and no profile, a profile the reverse.
-fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
-    let Expectation { value, profile, column, .. } = expectation;
-    let stray = |name: &str, reason: &str| Err(Fault::reason(&key(name), reason));
-    if expectation.measure == Measure::Profile {
-        return match (value, profile) {
-            (Some(_), _) => stray("value", "belongs to the measures minimum and maximum, and measure is \"profile\""),
-            (None, None) => Err(Fault::missing(&key("profile"))),
-            (None, Some(_)) => Ok(()),
+/// An error is taken over all points and against an exact solution, everything else along a line.
+fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let Expectation { line, measure, component, .. } = expectation;
+    if *measure == Measure::Error {
+        if case.exact.is_none() {
+            return Err(Fault::reason(&key("measure"), "there is no exact solution: the table exact is absent"));
+        }
+        return match line {
+            Some(_) => Err(Fault::reason(&key("line"), "belongs to the other measures: an error is over all points")),
+            None => Ok(()),
         };
     }
-    let reason = "belongs to the measure profile, and measure is \"minimum\" or \"maximum\"";
-    match (profile, column, value) {
-        (Some(_), ..) => stray("profile", reason),
-        (None, Some(_), _) => stray("column", reason),
-        (None, None, None) => Err(Fault::missing(&key("value"))),
-        (None, None, Some(0.0)) => Err(Fault::range(&key("value"))),
-        (None, None, Some(_)) => Ok(()),
+    if *component == Component::Velocity {
+        return Err(Fault::reason(&key("component"), "belongs to the measure error; along a line it is u or v"));
+    }
+    let (at, length) = match line {
+        None => return Err(Fault::missing(&key("line"))),
+        Some(Line::X(x)) => (*x, case.domain.width),
+        Some(Line::Y(y)) => (*y, case.domain.height),
+    };
+    if (0.0..=length).contains(&at) { Ok(()) } else { Err(Fault::range(&key("line"))) }
+}
+
+/// An extreme has a value and no profile, a profile the reverse, an error neither.
+fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let Expectation { measure, value, profile, column, .. } = expectation;
+    let stray = |name: &str, reason: &str| Err(Fault::reason(&key(name), reason));
+    if *measure != Measure::Profile {
+        let reason = match measure {
+            Measure::Error => "belongs to the measure profile, and measure is \"error\"",
+            _ => "belongs to the measure profile, and measure is \"minimum\" or \"maximum\"",
+        };
+        if profile.is_some() || column.is_some() {
+            return stray(if profile.is_some() { "profile" } else { "column" }, reason);
+        }
+    }
+    match (measure, value, profile) {
+        (Measure::Error | Measure::Profile, Some(_), _) => {
+            let word = if *measure == Measure::Error { "error" } else { "profile" };
+            stray("value", &format!("belongs to the measures minimum and maximum, and measure is {word:?}"))
+        }
+        (Measure::Profile, None, None) => Err(Fault::missing(&key("profile"))),
+        (Measure::Minimum | Measure::Maximum, None, _) => Err(Fault::missing(&key("value"))),
+        (Measure::Minimum | Measure::Maximum, Some(0.0), _) => Err(Fault::range(&key("value"))),
+        _ => Ok(()),
     }
 }
 
@@ -64,8 +85,8 @@ pub(in crate::case) fn check_profiles(case: &Case) -> Result<(), Fault> {
         let profile = Profile::read(path, expectation.column.as_deref());
         let profile = profile.map_err(|error| Fault::reason(&key, error.to_string()))?;
         let length = match expectation.line {
-            Line::X(_) => case.domain.height,
-            Line::Y(_) => case.domain.width,
+            Some(Line::Y(_)) => case.domain.width,
+            _ => case.domain.height,
         };
         match profile.coordinate.iter().find(|at| !(0.0..=length).contains(*at)) {
             Some(at) => {

@@ -11,6 +11,9 @@ pub const SMALLEST_RADIUS: f64 = 1.5;
 /// The radius of the neighbourhood is at most this, in spacings: a lattice point then has 80 neighbours.
 pub const LARGEST_RADIUS: f64 = 5.0;
 
+/// The widest neighbourhood that a weak fit may take, in radii: see [`crate::step::Rung`].
+pub const WIDEST_LADDER: f64 = 2.0;
+
 /// Fewest spacings along a side.
 const FEWEST_CELLS: f64 = 4.0;
 /// Part of a spacing by which a side may miss a whole number of them: room for decimals like 0.3333333.
@@ -29,14 +32,17 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(case.fluid.density > 0.0, "fluid.density")?;
     check_walls(case)?;
     let radius = case.method.radius;
-    require(radius > SMALLEST_RADIUS && radius <= LARGEST_RADIUS, "method.radius")
+    require(radius > SMALLEST_RADIUS && radius <= LARGEST_RADIUS, "method.radius")?;
+    check_period(case)
 }
 
 impl Case {
     /// About how many points the cloud has: those of the lattice with its spacing, exact for lattices.
     pub fn point_estimate(&self) -> f64 {
-        let along = |side: f64| (side / self.cloud.spacing).round() + 1.0;
-        along(self.domain.width) * along(self.domain.height)
+        // A side that repeats has its first line of points and not its last.
+        let along = |side: f64, periodic: bool| (side / self.cloud.spacing).round() + f64::from(u8::from(!periodic));
+        let [x, y] = self.domain.periodic.each();
+        along(self.domain.width, x) * along(self.domain.height, y)
     }
 }
 
@@ -46,7 +52,7 @@ fn check_size(case: &Case) -> Result<(), Fault> {
         let reason = format!("gives about {points:.1e} points, more than {LARGEST_CLOUD:e}; take a larger spacing");
         return Err(Fault::reason("cloud.spacing", reason));
     }
-    let Domain { width, height } = case.domain;
+    let Domain { width, height, .. } = case.domain;
     let side = width.min(height);
     if side / case.cloud.spacing < FEWEST_CELLS - WHOLE_WITHIN {
         let most = side / FEWEST_CELLS;
@@ -58,7 +64,7 @@ fn check_size(case: &Case) -> Result<(), Fault> {
 }
 
 fn check_whole(domain: &Domain, spacing: f64) -> Result<(), Fault> {
-    let Domain { width, height } = *domain;
+    let Domain { width, height, .. } = *domain;
     if is_whole(width / spacing) && is_whole(height / spacing) {
         return Ok(());
     }
@@ -120,16 +126,43 @@ impl Arrangement {
 
 fn check_walls(case: &Case) -> Result<(), Fault> {
     let walls = &case.boundaries;
+    let [x, y] = case.domain.periodic.each();
     let sides = [
-        ("boundaries.left.velocity", walls.left.velocity[0], "[0, v]"),
-        ("boundaries.right.velocity", walls.right.velocity[0], "[0, v]"),
-        ("boundaries.bottom.velocity", walls.bottom.velocity[1], "[u, 0]"),
-        ("boundaries.top.velocity", walls.top.velocity[1], "[u, 0]"),
+        ("boundaries.left.velocity", walls.left.velocity, 0, x),
+        ("boundaries.right.velocity", walls.right.velocity, 0, x),
+        ("boundaries.bottom.velocity", walls.bottom.velocity, 1, y),
+        ("boundaries.top.velocity", walls.top.velocity, 1, y),
     ];
-    match sides.iter().find(|(_, normal, _)| *normal != 0.0) {
-        Some((key, _, tangent)) => {
-            Err(Fault::reason(key, format!("must be along the wall, {tangent}: a solid wall lets no fluid through")))
-        }
-        None => Ok(()),
+    for (key, velocity, across, periodic) in sides.into_iter().filter(|(_, velocity, ..)| *velocity != [0.0, 0.0]) {
+        let reason = if periodic {
+            let axis = ["x", "y"][across];
+            format!("the domain repeats along {axis} (domain.periodic), so that there is no wall; leave it out")
+        } else if case.exact.is_some() {
+            "the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them".to_owned()
+        } else if velocity[across] != 0.0 {
+            let tangent = ["[0, v]", "[u, 0]"][across];
+            format!("must be along the wall, {tangent}: a solid wall lets no fluid through")
+        } else {
+            continue;
+        };
+        return Err(Fault::reason(key, reason));
     }
+    Ok(())
+}
+
+/// The shortest way between two points is one way alone: a box is wider than any neighbourhood.
+fn check_period(case: &Case) -> Result<(), Fault> {
+    let least = 2.0 * WIDEST_LADDER * case.method.radius * case.cloud.spacing;
+    let period = case.domain.period();
+    for (key, length) in [("domain.width", period.x), ("domain.height", period.y)] {
+        if length > 0.0 && length <= least {
+            let spacings = 2.0 * WIDEST_LADDER;
+            let reason = format!(
+                "must be above {least}, {spacings} times method.radius in spacings, where domain.periodic has the axis repeat: \
+                 else a point would meet another twice; take a smaller cloud.spacing"
+            );
+            return Err(Fault::reason(key, reason));
+        }
+    }
+    Ok(())
 }

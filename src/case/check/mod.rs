@@ -1,6 +1,7 @@
 //! What the types of a case cannot say: ranges, and keys that do not go together. Every check names its key.
 
 mod effects;
+mod exact;
 mod expectations;
 mod layout;
 
@@ -8,7 +9,7 @@ use super::Case;
 use super::fault::Fault;
 
 pub(super) use expectations::check_profiles;
-pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
+pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
 
 /// Most steps of one run: more would take years.
 const MOST_STEPS: f64 = 1e9;
@@ -18,6 +19,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
     effects::check(case)?;
+    exact::check(case)?;
     check_time(case)?;
     require(case.output.report_every >= 1, "output.report_every")?;
     expectations::check(case)

@@ -1,11 +1,13 @@
 //! The conservative form of the pressure equation: fluxes through the faces of Voronoi cells.
 //!
 //! Continuous: `div((dt / rho) grad p) = div u*`.
-//! Discrete:   `sum_j w_ij (p_i - p_j) = -(rho / dt) sum_j w_ij d_ij . (u*_i + u*_j) / 2`, walls letting nothing through.
+//! Discrete:   `sum_j w_ij (p_i - p_j) = -(rho / dt) (sum_j w_ij d_ij . (u*_i + u*_j) / 2 + A_i n_i . u_wall)`, the last term 0 at
+//! walls that let nothing through.
 //! The matrix is symmetric, its off-diagonal entries are not positive, and its null space is exactly the constants.
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::pressure::Rows;
+use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
 
 /// Faces of the Voronoi cells: neighbour across and weight `w_ij`, `capacity` slots a point, blocked.
@@ -61,7 +63,14 @@ impl<T: Real> Rows<T> for Conservative<'_, T> {
 }
 
 /// `scale sum_j w_ij d_ij . (u_i + u_j) / 2`: the volume flux out of every cell, m^2/s, times `scale`.
-pub fn divergence<T: Real>(faces: Faces<T>, position: &[T], velocity: &[T], scale: T, out: &mut [T]) {
+pub fn divergence<T: Real, S: Space<T>>(
+    faces: Faces<T>,
+    space: S,
+    position: &[T],
+    velocity: &[T],
+    scale: T,
+    out: &mut [T],
+) {
     let half = T::Pack::splat(T::from_f64(0.5) * scale);
     blocks::for_each(out, 1, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
@@ -73,17 +82,28 @@ pub fn divergence<T: Real>(faces: Faces<T>, position: &[T], velocity: &[T], scal
                 // SAFETY: every stored face neighbour is below the number of points.
                 let ([x, y], [u, v]) =
                     unsafe { (T::Pack::gather_vectors(position, index), T::Pack::gather_vectors(velocity, index)) };
-                sum += weight * ((x - own[0]) * (u + own_velocity[0]) + (y - own[1]) * (v + own_velocity[1]));
+                let [x, y] = space.shortest([x - own[0], y - own[1]]);
+                sum += weight * (x * (u + own_velocity[0]) + y * (v + own_velocity[1]));
             });
             (half * sum).store(&mut out[first..]);
         }
     });
 }
 
+/// Adds `scale` times the volume flux that the walls let through, outward, m^2/s: of every cell the part of
+/// [`divergence`] that is data.
+pub fn add_wall_flux<T: Real>(wall_flux: &[T], scale: T, out: &mut [T]) {
+    blocks::for_each(out, 1, &|block, out| {
+        let flux = &wall_flux[block * BLOCK..];
+        out.iter_mut().zip(flux).for_each(|(out, &flux)| *out += scale * flux);
+    });
+}
+
 /// Correction by minus the adjoint of the divergence: `u' = u* - (dt / rho) (1 / 2 V_i) sum_j w_ij d_ij (p_j - p_i)` at the
 /// points below `end`. Never adds kinetic energy, on any arrangement of points, at any dt.
-pub fn correct_by_adjoint<T: Real>(
+pub fn correct_by_adjoint<T: Real, S: Space<T>>(
     faces: Faces<T>,
+    space: S,
     position: &[T],
     volume: &[T],
     pressure: &[T],
@@ -102,8 +122,9 @@ pub fn correct_by_adjoint<T: Real>(
                 let ([x, y], p) =
                     unsafe { (T::Pack::gather_vectors(position, index), T::Pack::gather(pressure, index)) };
                 let difference = weight * (p - own_pressure);
-                sum[0] += difference * (x - own[0]);
-                sum[1] += difference * (y - own[1]);
+                let [x, y] = space.shortest([x - own[0], y - own[1]]);
+                sum[0] += difference * x;
+                sum[1] += difference * y;
             });
             let scale = factor / T::Pack::load(&volume[i..]);
             let [x, y] = sum.map(|sum| scale * sum);

@@ -3,13 +3,15 @@
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::moments::{self, FACTOR, Moments, PIVOT_THRESHOLD, WeightFunction};
 use crate::cpu::operations::neighbours::Search;
+use crate::cpu::operations::space::Space;
 use crate::cpu::real::{One, Pack, Real};
 use crate::step::Rung;
 
 /// Forms and factorises the 5x5 normal matrix of every point.
 ///
 /// `rung` becomes 0 where every pivot passed, else [`Rung::FAILED`]: those points are left to [`widen_support`].
-pub fn factorise<T: Real>(
+pub fn factorise<T: Real, S: Space<T>>(
+    space: S,
     position: &[T],
     support: &[T],
     neighbours: &[u32],
@@ -22,7 +24,7 @@ pub fn factorise<T: Real>(
     blocks::for_each_2((factor, FACTOR), (rung, 1), &|block, factor, rung| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
-            let stencil = Stencil::new(position, support, neighbours, count, capacity, i);
+            let stencil = Stencil::new(space, position, support, neighbours, count, capacity, i);
             let mut sums = Moments::<T::Pack>::zero();
             stencil.for_each(|_, [x, y], square| sums.add(x, y, weight.weight(square)));
             let (entries, least) = moments::factorise(sums.matrix());
@@ -38,7 +40,8 @@ pub fn factorise<T: Real>(
 }
 
 /// A pack of points with their neighbours, in scaled coordinates.
-pub struct Stencil<'a, T: Real> {
+pub struct Stencil<'a, T: Real, S> {
+    space: S,
     position: &'a [T],
     neighbours: &'a [u32],
     own: [T::Pack; 2],
@@ -48,10 +51,11 @@ pub struct Stencil<'a, T: Real> {
     rows: usize,
 }
 
-impl<'a, T: Real> Stencil<'a, T> {
+impl<'a, T: Real, S: Space<T>> Stencil<'a, T, S> {
     /// The points `i..i + LANES`. Slots past a point's own count hold the point itself and so add nothing to any sum.
     #[inline(always)]
     pub fn new(
+        space: S,
         position: &'a [T],
         support: &[T],
         neighbours: &'a [u32],
@@ -61,6 +65,7 @@ impl<'a, T: Real> Stencil<'a, T> {
     ) -> Self {
         let rows = count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0) as usize;
         Self {
+            space,
             position,
             neighbours,
             own: T::Pack::load_vectors(&position[2 * i..]),
@@ -79,8 +84,7 @@ impl<'a, T: Real> Stencil<'a, T> {
             // SAFETY: every stored neighbour is below the number of points: the search puts nothing else there, and
             // `Fields::write` checks what comes from outside.
             let [x, y] = unsafe { T::Pack::gather_vectors(self.position, index) };
-            let x = (x - self.own[0]) * self.per_support;
-            let y = (y - self.own[1]) * self.per_support;
+            let [x, y] = self.space.shortest([x - self.own[0], y - self.own[1]]).map(|d| d * self.per_support);
             body(index, [x, y], x * x + y * y);
         }
     }
@@ -90,8 +94,8 @@ impl<'a, T: Real> Stencil<'a, T> {
 /// [`Rung::WIDEST`]; then the linear fit; then the nearest value, which is no fit at all.
 ///
 /// Returns how many points stand on each rung: widened, linear, nearest.
-pub fn widen_support<T: Real>(
-    search: Search<T>,
+pub fn widen_support<T: Real, S: Space<T>>(
+    search: Search<T, S>,
     capacity: usize,
     weight: impl WeightFunction,
     support: &mut [T],
@@ -100,7 +104,7 @@ pub fn widen_support<T: Real>(
     factor: &mut [T],
     rung: &mut [u32],
 ) -> [u32; 3] {
-    let Search { position, points, .. } = search;
+    let Search { position, points, space, .. } = search;
     let mut tally = [0; 3];
     let threshold = T::from_f64(PIVOT_THRESHOLD);
     for i in (0..rung.len()).filter(|&i| rung[i] == Rung::FAILED).collect::<Vec<_>>() {
@@ -112,7 +116,8 @@ pub fn widen_support<T: Real>(
         let radius = support[i];
         let offset = |j: u32, per: T| {
             let j = j as usize;
-            [(position[2 * j] - position[2 * i]) * per, (position[2 * j + 1] - position[2 * i + 1]) * per]
+            let d = [position[2 * j] - position[2 * i], position[2 * j + 1] - position[2 * i + 1]];
+            space.shortest(d.map(One)).map(|d| d.0 * per)
         };
         let fit = |found: &[u32], radius: T| {
             let per = T::from_f64(1.0) / radius;

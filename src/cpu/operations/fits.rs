@@ -3,11 +3,12 @@
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::fit::Stencil;
 use crate::cpu::operations::moments::{self, COEFFICIENTS, FACTOR, WeightFunction};
+use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
 
 /// The points, their neighbours and their factorised normal matrices: all that a fit needs but the field.
 #[derive(Clone, Copy)]
-pub struct Fits<'a, T, W> {
+pub struct Fits<'a, T, W, S> {
     pub position: &'a [T],
     pub support: &'a [T],
     pub neighbours: &'a [u32],
@@ -15,12 +16,13 @@ pub struct Fits<'a, T, W> {
     pub capacity: usize,
     pub factor: &'a [T],
     pub weight: W,
+    pub space: S,
 }
 
-impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
+impl<T: Real, W: WeightFunction, S: Space<T>> Fits<'_, T, W, S> {
     #[inline(always)]
-    pub fn stencil(&self, i: usize) -> Stencil<'_, T> {
-        Stencil::new(self.position, self.support, self.neighbours, self.count, self.capacity, i)
+    pub fn stencil(&self, i: usize) -> Stencil<'_, T, S> {
+        Stencil::new(self.space, self.position, self.support, self.neighbours, self.count, self.capacity, i)
     }
 
     #[inline(always)]
@@ -57,7 +59,11 @@ impl<T: Real, W: WeightFunction> Fits<'_, T, W> {
 }
 
 /// The five coefficients of the fits of u and of v at every point, scaled by its support radius.
-pub fn fit_velocity<T: Real, W: WeightFunction>(fits: Fits<T, W>, velocity: &[T], coefficients: &mut [T]) {
+pub fn fit_velocity<T: Real, W: WeightFunction, S: Space<T>>(
+    fits: Fits<T, W, S>,
+    velocity: &[T],
+    coefficients: &mut [T],
+) {
     blocks::for_each(coefficients, 2 * COEFFICIENTS, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let (fitted, _) = fits.vector(block * BLOCK + first, velocity);
@@ -70,8 +76,8 @@ pub fn fit_velocity<T: Real, W: WeightFunction>(fits: Fits<T, W>, velocity: &[T]
 }
 
 /// Divergence of the fitted velocity, 1/s: `du/dx + dv/dy`, at the points below `end`; (2.6).
-pub fn fitted_divergence<T: Real, W: WeightFunction>(
-    fits: Fits<T, W>,
+pub fn fitted_divergence<T: Real, W: WeightFunction, S: Space<T>>(
+    fits: Fits<T, W, S>,
     velocity: &[T],
     end: usize,
     divergence: &mut [T],

@@ -14,3 +14,4 @@ pub mod neighbours;
 pub mod pressure;
 pub mod remap;
 pub mod rows;
+pub mod space;

@@ -4,12 +4,13 @@
 //! cell, so that the same points give the same lists. Shapes: one list of `capacity` slots a point, blocked.
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::real::Real;
+use crate::cpu::operations::space::Space;
+use crate::cpu::real::{One, Real};
 use crate::step::Grid;
 
 /// Points sorted into cells, to be searched.
 #[derive(Clone, Copy)]
-pub struct Search<'a, T> {
+pub struct Search<'a, T, S> {
     pub position: &'a [T],
     pub points: usize,
     pub grid: &'a Grid,
@@ -17,6 +18,7 @@ pub struct Search<'a, T> {
     pub start: &'a [u32],
     /// The points, cell by cell, ascending within a cell.
     pub sorted: &'a [u32],
+    pub space: S,
 }
 
 /// Sorts points into cells: fills what [`Search`] calls `start` and `sorted`.
@@ -42,23 +44,28 @@ pub fn build_cells<T: Real>(position: &[T], points: usize, grid: &Grid, start: &
     start[0] = 0;
 }
 
-impl<T: Real> Search<'_, T> {
-    /// Calls `found(j)` for every point within `radius` of point `i`, `i` itself apart, in the order of the cells.
+impl<T: Real, S: Space<T>> Search<'_, T, S> {
+    /// Calls `found(j)` for every point within `radius` of point `i`, `i` itself apart, in the order of the cells: along
+    /// each row from the window's first, past the seam where it reaches there.
     #[inline(always)]
     pub fn within(&self, i: usize, radius: T, mut found: impl FnMut(u32)) {
-        let (position, grid) = (self.position, self.grid);
+        let (position, grid, space) = (self.position, self.grid, self.space);
         let own = [position[2 * i], position[2 * i + 1]];
         let [cx, cy] = grid.cell_of(own.map(Real::to_f64));
-        let ring = (radius.to_f64() * grid.per_metre).ceil().max(1.0) as u32;
         let [nx, ny] = grid.cells;
-        for y in cy.saturating_sub(ring)..=(cy + ring).min(ny - 1) {
-            let row = (y * nx) as usize;
-            let first = self.start[row + cx.saturating_sub(ring) as usize] as usize;
-            let last = self.start[row + (cx + ring).min(nx - 1) as usize + 1] as usize;
-            for &j in &self.sorted[first..last] {
-                let (dx, dy) = (position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]);
-                if j as usize != i && dx * dx + dy * dy < radius * radius {
-                    found(j);
+        let [left, columns] = grid.window(0, cx, radius.to_f64());
+        let [bottom, rows] = grid.window(1, cy, radius.to_f64());
+        let beyond = (left + columns).saturating_sub(nx);
+        for y in bottom..bottom + rows {
+            let row = ((if y < ny { y } else { y - ny }) * nx) as usize;
+            for [from, to] in [[left, left + columns - beyond], [0, beyond]] {
+                let (first, last) = (self.start[row + from as usize], self.start[row + to as usize]);
+                for &j in &self.sorted[first as usize..last as usize] {
+                    let d = [position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]];
+                    let [dx, dy] = space.shortest(d.map(One)).map(|d| d.0);
+                    if j as usize != i && dx * dx + dy * dy < radius * radius {
+                        found(j);
+                    }
                 }
             }
         }
@@ -67,8 +74,8 @@ impl<T: Real> Search<'_, T> {
 
 /// Fills the list of every point. Returns the largest number of neighbours met; above `capacity` the lists are cut off
 /// and the caller reports it.
-pub fn find_neighbours<T: Real>(
-    search: Search<T>,
+pub fn find_neighbours<T: Real, S: Space<T>>(
+    search: Search<T, S>,
     radius: T,
     capacity: usize,
     neighbours: &mut [u32],
@@ -100,7 +107,11 @@ pub fn find_neighbours<T: Real>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::test_clouds;
+    use glam::DVec2;
+
+    use crate::cloud::{shortest, test_clouds};
+    use crate::cpu::operations::space::Domain;
+    use crate::with_space;
 
     #[test]
     fn equal_to_brute_force() {
@@ -108,20 +119,25 @@ mod tests {
             let points = cloud.len();
             let position: Vec<f64> = cloud.position.iter().flat_map(|place| [place.x, place.y]).collect();
             let radius = 2.6 * cloud.spacing;
-            let grid = Grid::new(cloud.size, radius);
+            let grid = Grid::new(cloud.size, cloud.period, radius);
             let (mut start, mut sorted) = (vec![0; grid.count() + 1], vec![0; points]);
             build_cells(&position, points, &grid, &mut start, &mut sorted);
-            let search = Search { position: &position, points, grid: &grid, start: &start, sorted: &sorted };
             let padded = blocks::padded(points);
             let capacity = 64;
             let (mut neighbours, mut count) = (vec![0; padded * capacity], vec![0; padded]);
-            find_neighbours(search, radius, capacity, &mut neighbours, &mut count);
+            let domain = Domain::new([DVec2::ZERO, cloud.size], cloud.period);
+            with_space!(domain, space => {
+                let (position, start, sorted) = (&position[..], &start[..], &sorted[..]);
+                let search = Search { position, points, grid: &grid, start, sorted, space };
+                find_neighbours(search, radius, capacity, &mut neighbours, &mut count)
+            });
             for i in 0..points {
                 let mut found: Vec<u32> =
                     (0..count[i] as usize).map(|slot| neighbours[blocks::at(i, slot, capacity)]).collect();
                 found.sort_unstable();
                 let near = |&j: &u32| {
-                    j as usize != i && cloud.position[j as usize].distance_squared(cloud.position[i]) < radius * radius
+                    let offset = cloud.position[j as usize] - cloud.position[i];
+                    j as usize != i && shortest(offset, cloud.period).length_squared() < radius * radius
                 };
                 let brute: Vec<u32> = (0..points as u32).filter(near).collect();
                 assert_eq!(found, brute, "point {i}");

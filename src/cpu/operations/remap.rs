@@ -5,35 +5,30 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::moments::COEFFICIENTS;
-use crate::cpu::real::Real;
+use crate::cpu::operations::space::Space;
+use crate::cpu::real::{One, Real};
 
 /// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity being that
 /// at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
-pub fn remap_departure<T: Real>(
+pub fn remap_departure<T: Real, S: Space<T>>(
+    space: S,
     position: &[T],
     support: &[T],
     around: Around,
-    size: [T; 2],
     values: &[T],
     coefficients: &[T],
     dt: T,
     end: usize,
     velocity: &mut [T],
 ) {
-    let evaluate = |j, place| evaluate(position, support, values, coefficients, j, place);
+    let evaluate = |j, place| evaluate(space, position, support, values, coefficients, j, place);
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
-            // Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that of a corner.
-            let inside = |x: T, length: T| match x {
-                low if low < T::zero() => T::zero(),
-                high if high > length => length,
-                x => x,
-            };
-            let back = |[u, v]: [T; 2]| [inside(here[0] - dt * u, size[0]), inside(here[1] - dt * v, size[1])];
+            let back = |[u, v]: [T; 2]| space.inside([here[0] - dt * u, here[1] - dt * v]);
             let own = [values[2 * i], values[2 * i + 1]];
             let from = back(evaluate(i, back(own)));
-            let value = evaluate(nearest(position, around, from, i), from);
+            let value = evaluate(nearest(space, position, around, from, i), from);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }
@@ -42,7 +37,8 @@ pub fn remap_departure<T: Real>(
 
 /// The fit of point `j` at `place`: its value and its five coefficients.
 #[inline(always)]
-fn evaluate<T: Real>(
+fn evaluate<T: Real, S: Space<T>>(
+    space: S,
     position: &[T],
     support: &[T],
     values: &[T],
@@ -51,7 +47,7 @@ fn evaluate<T: Real>(
     place: [T; 2],
 ) -> [T; 2] {
     let per = T::from_f64(1.0) / support[j];
-    let (x, y) = ((place[0] - position[2 * j]) * per, (place[1] - position[2 * j + 1]) * per);
+    let [x, y] = offset(space, position, j, place).map(|d| d * per);
     let basis = [x, y, x * x, x * y, y * y];
     let first = blocks::at(j, 0, 2 * COEFFICIENTS);
     let part = |c: usize| {
@@ -62,6 +58,12 @@ fn evaluate<T: Real>(
         sum
     };
     [part(0), part(1)]
+}
+
+/// The way from point `j` to `place`.
+#[inline(always)]
+fn offset<T: Real, S: Space<T>>(space: S, position: &[T], j: usize, place: [T; 2]) -> [T; 2] {
+    space.shortest([One(place[0] - position[2 * j]), One(place[1] - position[2 * j + 1])]).map(|d| d.0)
 }
 
 /// The points around each point: its neighbours, or those across the faces of its Voronoi cell, which suffice to walk from any
@@ -75,9 +77,9 @@ pub struct Around<'a> {
 
 /// The point nearest to `place`, found by walking from point to nearer neighbour, beginning at `from`.
 #[inline(always)]
-fn nearest<T: Real>(position: &[T], around: Around, place: [T; 2], from: usize) -> usize {
+fn nearest<T: Real, S: Space<T>>(space: S, position: &[T], around: Around, place: [T; 2], from: usize) -> usize {
     let square = |j: usize| {
-        let (dx, dy) = (position[2 * j] - place[0], position[2 * j + 1] - place[1]);
+        let [dx, dy] = offset(space, position, j, place);
         dx * dx + dy * dy
     };
     let (mut at, mut least) = (from, square(from));
@@ -98,19 +100,28 @@ fn nearest<T: Real>(position: &[T], around: Around, place: [T; 2], from: usize) 
     }
 }
 
-/// Moves the interior points with the flow: `r' = r0 + dt u'`; walls stand.
-pub fn move_points<T: Real>(standing: &[T], velocity: &[T], dt: T, interior: usize, moved: &mut [T]) {
+/// Moves the interior points with the flow: `r' = r0 + dt u'`, and round where the domain repeats; walls stand.
+pub fn move_points<T: Real, S: Space<T>>(
+    space: S,
+    standing: &[T],
+    velocity: &[T],
+    dt: T,
+    interior: usize,
+    moved: &mut [T],
+) {
     blocks::for_each(moved, 2, &|block, out| {
-        let first = 2 * block * BLOCK;
-        for (k, place) in out.iter_mut().enumerate() {
-            let shift = if first + k < 2 * interior { dt * velocity[first + k] } else { T::zero() };
-            *place = standing[first + k] + shift;
+        for (lane, place) in out.chunks_exact_mut(2).enumerate() {
+            let k = 2 * (block * BLOCK + lane);
+            let here = [standing[k], standing[k + 1]];
+            let there = [here[0] + dt * velocity[k], here[1] + dt * velocity[k + 1]];
+            place.copy_from_slice(&if k < 2 * interior { space.wrapped(there) } else { here });
         }
     });
 }
 
 /// The paper's remap: the fit of each moved point, evaluated at its standing place `r0`, that is at `r0 - r'`.
-pub fn remap_forward<T: Real>(
+pub fn remap_forward<T: Real, S: Space<T>>(
+    space: S,
     standing: &[T],
     moved: &[T],
     support: &[T],
@@ -122,7 +133,7 @@ pub fn remap_forward<T: Real>(
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
             let place = [standing[2 * i], standing[2 * i + 1]];
-            let value = evaluate(moved, support, values, coefficients, i, place);
+            let value = evaluate(space, moved, support, values, coefficients, i, place);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }

@@ -8,6 +8,7 @@
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::fits::Fits;
 use crate::cpu::operations::moments::{self, COEFFICIENTS, WeightFunction};
+use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
 
 /// The neighbours of every point, slot by slot as the rows are.
@@ -32,7 +33,7 @@ impl Lists<'_> {
 }
 
 /// Fills the rows of the fitted Laplacian: `lap phi = 2 (a3 + a5) / r_e^2`.
-pub fn assemble_laplacian<T: Real, W: WeightFunction>(fits: Fits<T, W>, row: &mut [T]) {
+pub fn assemble_laplacian<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T, W, S>, row: &mut [T]) {
     let slots = fits.capacity;
     let (two, zero) = (T::Pack::splat(T::from_f64(2.0)), T::Pack::zero());
     blocks::for_each(row, slots, &|block, out| {
@@ -51,7 +52,7 @@ pub fn assemble_laplacian<T: Real, W: WeightFunction>(fits: Fits<T, W>, row: &mu
 }
 
 /// Fills the rows of the fitted gradient: `grad phi = (a1, a2) / r_e`.
-pub fn assemble_gradient<T: Real, W: WeightFunction>(fits: Fits<T, W>, row: &mut [T]) {
+pub fn assemble_gradient<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T, W, S>, row: &mut [T]) {
     let slots = fits.capacity;
     let zero = T::Pack::zero();
     blocks::for_each(row, 2 * slots, &|block, out| {

@@ -9,7 +9,7 @@ use super::colour::Rgb;
 use super::frame::{Axis, BELOW, Frame, LABEL, LEGEND, draw_title, title_height};
 use super::text::{Anchor, Direction, Text};
 use super::ticks::short;
-use crate::case::{Case, Component, Line, Measure};
+use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::measure::{LineMeasure, MeasureError, Profile, Sampler};
 use crate::snapshot::Snapshot;
 
@@ -52,7 +52,7 @@ pub fn draw(
     profiles: &BTreeMap<String, Profile>,
     title: &str,
 ) -> Result<Canvas, MeasureError> {
-    let sampler = Sampler::new(&snapshot.position, case.cloud.spacing)?;
+    let sampler = Sampler::periodic(&snapshot.position, case.cloud.spacing, case.domain.period())?;
     let panel = WIDTH / COLUMNS as f64;
     let panels = wanted(case)
         .into_iter()
@@ -87,7 +87,8 @@ pub fn draw(
 fn wanted(case: &Case) -> Vec<(Component, Line)> {
     let mut lines: Vec<(Component, Line)> = Vec::new();
     let middle = [(Component::U, Line::X(0.5 * case.domain.width)), (Component::V, Line::Y(0.5 * case.domain.height))];
-    for line in middle.into_iter().chain(case.expect.values().map(|row| (row.component, row.line))) {
+    let expected = case.expect.values().filter_map(|row| Some((row.component, row.line?)));
+    for line in middle.into_iter().chain(expected) {
         if !lines.iter().any(|&known| same(known, line)) {
             lines.push(line);
         }
@@ -116,7 +117,8 @@ fn prepare(
     let mut marks = Vec::new();
     let mut legend = vec![(Sign::Line, "computed".to_owned())];
     let mut colours = CIRCLES.into_iter().cycle();
-    for (name, row) in case.expect.iter().filter(|(_, row)| same((row.component, row.line), wanted)) {
+    let here = |row: &Expectation| row.line.is_some_and(|line| same((row.component, line), wanted));
+    for (name, row) in case.expect.iter().filter(|(_, row)| here(row)) {
         let (sign, places, words) = match (measure.measured(row.measure), row.value, profiles.get(name)) {
             (Some(extreme), Some(value), _) => {
                 let (sign, word) = match row.measure {
@@ -140,6 +142,7 @@ fn prepare(
         Component::U => ("u", "u", "m/s"),
         Component::V => ("v", "v", "m/s"),
         Component::P => ("p", "p less its value in the middle,", "Pa"),
+        Component::Velocity => ("|u|", "speed", "m/s"),
     };
     let (along, heading) = match wanted.1 {
         Line::X(x) => ("y", format!("{what} along x = {} m", short(x, 4))),

@@ -22,7 +22,8 @@ pub fn draw(text: &Text, case: &Case, snapshot: &Snapshot, title: &str) -> Resul
     let (columns, rows) = map::size(&case.domain);
     let [u, v]: [Vec<f64>; 2] =
         [snapshot.velocity.iter().map(|u| u.x).collect(), snapshot.velocity.iter().map(|u| u.y).collect()];
-    let surface = Surface::new(&snapshot.position, case.cloud.spacing, domain.x / columns as f64, [&u, &v])?;
+    let (spacing, pixel) = (case.cloud.spacing, domain.x / columns as f64);
+    let surface = Surface::new(&snapshot.position, spacing, case.domain.period(), pixel, [&u, &v])?;
     let raster = surface.raster(domain, columns, rows);
     let speed: Vec<f64> = snapshot.velocity.iter().map(|u| u.length()).collect();
     let scale = ColourScale::magnitude(&speed);

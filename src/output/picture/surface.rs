@@ -4,7 +4,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::measure::{CellList, MeasureError, Sampler};
+use crate::measure::{CellList, Images, MeasureError, Sampler};
 
 /// Points up to this far, in spacings, take part in a blend.
 const REACH: f64 = 1.35;
@@ -31,7 +31,7 @@ impl Continuation {
 /// `M` fields on scattered points.
 #[derive(Debug)]
 pub struct Surface<'a, const M: usize> {
-    position: &'a [DVec2],
+    images: Images<'a>,
     cells: CellList,
     reach: f64,
     /// Each field at each point.
@@ -47,20 +47,28 @@ pub struct Raster<const M: usize> {
 }
 
 impl<'a, const M: usize> Surface<'a, M> {
-    /// `spacing` and `pixel` in metres; every field holds one value a point.
+    /// `spacing` and `pixel` in metres, and `period` too: the domain's length along an axis that repeats, 0 along another. Every
+    /// field holds one value a point.
     ///
     /// # Errors
     /// No point, a position that is not finite, or a spacing that is not above zero.
-    pub fn new(position: &'a [DVec2], spacing: f64, pixel: f64, fields: [&[f64]; M]) -> Result<Self, MeasureError> {
+    pub fn new(
+        position: &'a [DVec2],
+        spacing: f64,
+        period: DVec2,
+        pixel: f64,
+        fields: [&[f64]; M],
+    ) -> Result<Self, MeasureError> {
         let reach = REACH * spacing.max(pixel);
-        let cells = CellList::new(position, reach)?;
+        let images = Images::new(position, period, reach);
+        let cells = CellList::new(&images.position, reach)?;
         let flat = |k: usize| {
             fields.map(|field| Continuation { value: field[k], gradient: DVec2::ZERO, range: (field[k], field[k]) })
         };
         let point = if spacing < DENSE * pixel {
             (0..position.len()).map(flat).collect()
         } else {
-            let sampler = Sampler::new(position, spacing)?;
+            let sampler = Sampler::periodic(position, spacing, period)?;
             (0..position.len())
                 .into_par_iter()
                 .map(|k| match sampler.gradient(position[k]) {
@@ -81,19 +89,19 @@ impl<'a, const M: usize> Surface<'a, M> {
                 })
                 .collect()
         };
-        Ok(Self { position, cells, reach, point })
+        Ok(Self { images, cells, reach, point })
     }
 
     /// The fields at a place, m.
     pub fn at(&self, at: DVec2) -> [f64; M] {
         let (mut total, mut sum) = (0.0, [0.0; M]);
         self.cells.visit(at, self.reach, |k| {
-            let d = at - self.position[k];
+            let d = at - self.images.position[k];
             let share = 1.0 - d.length_squared() / (self.reach * self.reach);
             if share > 0.0 {
                 let weight = share * share;
                 total += weight;
-                for (sum, one) in sum.iter_mut().zip(&self.point[k]) {
+                for (sum, one) in sum.iter_mut().zip(&self.point[self.images.point(k)]) {
                     *sum += weight * one.at(d);
                 }
             }
@@ -101,7 +109,8 @@ impl<'a, const M: usize> Surface<'a, M> {
         if total > 1e-6 {
             sum.map(|sum| sum / total)
         } else {
-            self.point[self.cells.nearest(self.position, at)].map(|one| one.value)
+            let nearest = self.cells.nearest(&self.images.position, at);
+            self.point[self.images.point(nearest)].map(|one| one.value)
         }
     }
 
@@ -164,7 +173,7 @@ mod tests {
         let plane = |x: DVec2| 3.0 * x.x - 2.0 * x.y + 1.0;
         let field: Vec<f64> = cloud.iter().map(|&x| plane(x)).collect();
         for (size, limit) in [(40, 4e-3), (70, 4e-3), (400, 4e-3)] {
-            let surface = Surface::new(&cloud, 0.05, 1.0 / size as f64, [&field]).unwrap();
+            let surface = Surface::new(&cloud, 0.05, DVec2::ZERO, 1.0 / size as f64, [&field]).unwrap();
             let raster = surface.raster(DVec2::ONE, size, size);
             let error = largest_error(&raster, plane);
             assert!(error < limit, "{size}: {error}");
@@ -177,7 +186,7 @@ mod tests {
         for (n, size, limit) in [(16, 200, 0.1), (64, 300, 0.01), (200, 100, 0.06)] {
             let cloud = jittered_cloud(n, 0.4, 2);
             let field: Vec<f64> = cloud.iter().map(|&x| wave(x)).collect();
-            let surface = Surface::new(&cloud, 1.0 / n as f64, 1.0 / size as f64, [&field]).unwrap();
+            let surface = Surface::new(&cloud, 1.0 / n as f64, DVec2::ZERO, 1.0 / size as f64, [&field]).unwrap();
             let error = largest_error(&surface.raster(DVec2::ONE, size, size), wave);
             assert!(error < limit, "{n}: {error}");
         }
@@ -188,14 +197,14 @@ mod tests {
         let cloud = jittered_cloud(40, 0.35, 2);
         let field: Vec<f64> = cloud.iter().map(|x| 0.02 / (x.distance(DVec2::ONE) + 0.002)).collect();
         let (least, most) = field.iter().fold((1.0f64, 0.0f64), |(low, high), &v| (low.min(v), high.max(v)));
-        let raster = Surface::new(&cloud, 0.025, 1.0 / 500.0, [&field]).unwrap().raster(DVec2::ONE, 500, 500);
+        let raster = Surface::new(&cloud, 0.025, DVec2::ZERO, 1.0 / 500.0, [&field]).unwrap().raster(DVec2::ONE, 500, 500);
         assert!(raster.value.iter().all(|[v]| (least - 1e-12..=most + 1e-12).contains(v)));
     }
 
     #[test]
     fn a_hole_in_the_cloud_takes_the_nearest_value() {
         let cloud = [DVec2::ZERO, DVec2::ONE];
-        let surface = Surface::new(&cloud, 0.01, 0.1, [&[2.0, 5.0]]).unwrap();
+        let surface = Surface::new(&cloud, 0.01, DVec2::ZERO, 0.1, [&[2.0, 5.0]]).unwrap();
         assert_eq!((surface.at(DVec2::new(0.5, 0.4)), surface.at(DVec2::splat(0.8))), ([2.0], [5.0]));
     }
 }

@@ -1,0 +1,51 @@
+//! Checks that a case is one that its exact solution solves.
+
+use super::super::fault::Fault;
+use super::super::{Axes, Case, Domain, Solution};
+
+/// Part by which the sides of a box may miss a whole number of wavelengths.
+const WHOLE_WITHIN: f64 = 1e-9;
+
+pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    let Some(exact) = &case.exact else { return Ok(()) };
+    let effects = &case.effects;
+    let present = [
+        ("viscosity", effects.viscosity.is_some()),
+        ("pressure", effects.pressure.is_some()),
+        ("advection", effects.advection.is_some()),
+    ];
+    if let Some((lacking, _)) = present.iter().find(|(_, present)| !present) {
+        let reason = format!("solves the equations with every effect, and the table effects.{lacking} is absent");
+        return Err(Fault::reason("exact.solution", reason));
+    }
+    match exact.solution {
+        Solution::TaylorGreen => taylor_green(&case.domain),
+        Solution::Kovasznay => kovasznay(&case.domain),
+    }
+}
+
+fn taylor_green(domain: &Domain) -> Result<(), Fault> {
+    if domain.periodic != Axes::Both {
+        return Err(Fault::reason("exact.solution", "repeats along x and y: it needs domain.periodic = \"both\""));
+    }
+    let Domain { width, height, .. } = *domain;
+    let waves = width.max(height) / width.min(height);
+    if (waves - waves.round()).abs() > WHOLE_WITHIN * waves {
+        let reason = format!(
+            "has square vortices, as long as the shorter side of {width} x {height} m; \
+             the longer one must be a whole number of them (domain.width, domain.height)"
+        );
+        return Err(Fault::reason("exact.solution", reason));
+    }
+    Ok(())
+}
+
+fn kovasznay(domain: &Domain) -> Result<(), Fault> {
+    match domain.periodic {
+        Axes::None => Ok(()),
+        _ => Err(Fault::reason(
+            "exact.solution",
+            "prescribes the velocity on all four sides: it needs domain.periodic = \"none\"",
+        )),
+    }
+}
