@@ -44,7 +44,7 @@ fn nearest(place: vector, start: u32) -> u32 {
 // What is no number stays none: a lost velocity must be seen, and min and max may replace it by that of a corner.
 fn back(here: vector, velocity: vector) -> vector {
     let place = here - clock[CLOCK_DT] * velocity;
-    let inside = min(max(wrapped(place), LOWEST), HIGHEST);
+    let inside = min(max(wrapped(place), vector()), SIZE);
     return select(place, inside, finite(place.x) && finite(place.y));
 }
 

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
+use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid, shortest};
 use crate::cpu::operations::pressure::Stop;
@@ -23,6 +24,8 @@ pub struct Scene {
     exact: Option<Exact>,
     /// Voronoi cells, where the plan's pressure is conservative.
     cells: Option<Cells>,
+    /// The flux out of them, where the plan fits it.
+    fluxes: Option<Fluxes>,
 }
 
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
@@ -37,8 +40,6 @@ pub struct Constants {
     pub size: DVec2,
     /// Lengths after which it repeats along x and y, m; 0 along an axis that ends at walls.
     pub period: DVec2,
-    /// Lower left and upper right end of the places that fluid is followed back to, m.
-    pub bounds: [DVec2; 2],
     /// `l0`, m.
     pub spacing: f64,
     /// kg/m^3
@@ -84,14 +85,16 @@ impl Scene {
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
         let cells = conservative.then(|| Cells::build(&cloud));
+        let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
+        let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
+            flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
             cells: grid.count(),
         };
-        let beyond = if plan.through_flow { radius } else { 0.0 };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let constants = Constants {
             radius,
@@ -99,7 +102,6 @@ impl Scene {
             grid,
             size: cloud.size,
             period: cloud.period,
-            bounds: [DVec2::splat(-beyond), cloud.size + beyond],
             spacing: cloud.spacing,
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
@@ -108,12 +110,17 @@ impl Scene {
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells })
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
     }
 
     /// The Voronoi cells; `None` unless the pressure is conservative.
     pub fn cells(&self) -> Option<&Cells> {
         self.cells.as_ref()
+    }
+
+    /// The flux out of the cells; `None` unless the plan fits it.
+    pub fn fluxes(&self) -> Option<&Fluxes> {
+        self.fluxes.as_ref()
     }
 
     /// The velocity at every point that a run begins with, m/s: the exact solution's, or rest between the walls.
@@ -163,6 +170,7 @@ impl Scene {
         }
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
+            data.extend(self.fluxes.iter().flat_map(|fluxes| self.flux_rows(fluxes)));
             if let (true, Some(exact)) = (self.plan.through_flow, &self.exact) {
                 let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
@@ -196,6 +204,32 @@ impl Scene {
             (Buffer::FaceWeight, Data::Real(weight)),
             (Buffer::FaceCount, Data::Index(count)),
             (Buffer::Diagonal, Data::Real(diagonal)),
+        ]
+    }
+
+    fn flux_rows(&self, fluxes: &Fluxes) -> Vec<(Buffer, Data)> {
+        let slots = self.sizes.flux_capacity;
+        let (mut points, mut row) = (vec![0; self.padded() * slots], vec![0.0; 2 * self.padded() * slots]);
+        let mut count = vec![0; self.padded()];
+        let at = |point: usize, slot: usize, slots: usize| {
+            (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK
+        };
+        for point in 0..self.padded() {
+            let own = point.min(self.sizes.points - 1);
+            (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);
+        }
+        for (point, count) in count.iter_mut().enumerate().take(self.sizes.points) {
+            for (slot, (other, factor)) in fluxes.row(point).enumerate() {
+                points[at(point, slot, slots)] = other as u32;
+                row[at(point, slot, 2 * slots)] = factor.x;
+                row[at(point, slots + slot, 2 * slots)] = factor.y;
+                *count += 1;
+            }
+        }
+        vec![
+            (Buffer::FluxPoints, Data::Index(points)),
+            (Buffer::FluxCount, Data::Index(count)),
+            (Buffer::FluxRow, Data::Real(row)),
         ]
     }
 

@@ -7,6 +7,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
+use crate::case::Splitting;
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
@@ -199,7 +200,9 @@ impl Run<'_> {
             if steady_rows == STEADY_ROWS {
                 break Stop::Steady;
             }
-            dt = self.step(wall_speed.max(row.max_speed), now)?;
+            let next = self.step(wall_speed.max(row.max_speed), now)?;
+            self.change_step(next / dt)?;
+            dt = next;
         };
         let stepping = started.elapsed();
         let warnings = self.warnings;
@@ -232,11 +235,33 @@ impl Run<'_> {
         Ok(dt)
     }
 
-    /// The first half kick alone: after it, drift and whole kick follow each other. In a projection step, the first step's forces.
+    /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
+    /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
+        if self.scene.plan.splitting == Splitting::Projection {
+            return Ok(());
+        }
         let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
         for &operation in &self.scene.plan.kick {
             self.engine.apply(operation, &clock)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the second half of the last kick, `u' - u_m`, and the pressure's part in it `ratio` times as long: that of the step
+    /// to come.
+    fn change_step(&mut self, ratio: f64) -> Result<(), EngineError> {
+        if self.scene.plan.splitting == Splitting::Projection || (ratio - 1.0).abs() < SAME_STEP {
+            return Ok(());
+        }
+        let [middle, reflected, kick] = [Buffer::Projected, Buffer::Reflected, Buffer::PressureKick];
+        if let (Data::Real(middle), Data::Real(mut end)) = (self.engine.read(middle)?, self.engine.read(reflected)?) {
+            end.iter_mut().zip(middle).for_each(|(end, middle)| *end = middle + ratio * (*end - middle));
+            self.engine.write(reflected, &Data::Real(end))?;
+        }
+        if let Data::Real(mut mean) = self.engine.read(kick)? {
+            mean.iter_mut().for_each(|mean| *mean *= ratio);
+            self.engine.write(kick, &Data::Real(mean))?;
         }
         Ok(())
     }
@@ -308,6 +333,8 @@ fn steps_in(left: f64, longest: f64) -> f64 {
     (left / longest * (1.0 - 1e-12)).ceil().max(1.0)
 }
 
+/// Steps whose lengths differ by less, relative, are equally long: that much rounding makes of them.
+const SAME_STEP: f64 = 1e-9;
 /// Rows in a row that must be steady.
 const STEADY_ROWS: u32 = 2;
 

@@ -1,6 +1,7 @@
 //! Where the points are: a rectangle filled with points, on its walls and inside.
 
 mod arrangement;
+pub mod flux;
 pub mod grid;
 mod period;
 pub mod voronoi;

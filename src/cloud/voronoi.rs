@@ -26,6 +26,8 @@ pub struct Cells {
     pub neighbour: Vec<u32>,
     /// `w_ij` of each face; the same number from both sides.
     pub weight: Vec<f64>,
+    /// How far the middle of each face lies beside the middle between its points: to the left on the way to `neighbour`, m.
+    pub shift: Vec<f64>,
     /// The pieces of wall, point by point.
     pub walls: Vec<WallPiece>,
 }
@@ -44,9 +46,17 @@ pub struct WallPiece {
 /// One cell on its own.
 struct Cell {
     volume: f64,
-    /// Neighbour and weight, ascending by neighbour.
-    faces: Vec<(u32, f64)>,
+    /// Ascending by neighbour.
+    faces: Vec<Face>,
     walls: Vec<WallPiece>,
+}
+
+/// One face, as one of its cells sees it.
+#[derive(Clone, Copy)]
+struct Face {
+    neighbour: u32,
+    weight: f64,
+    shift: f64,
 }
 
 impl Cells {
@@ -64,8 +74,9 @@ impl Cells {
         Self {
             volume: cells.iter().map(|cell| cell.volume).collect(),
             start,
-            neighbour: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(neighbour, _)| neighbour)).collect(),
-            weight: cells.iter().flat_map(|cell| cell.faces.iter().map(|&(_, weight)| weight)).collect(),
+            neighbour: cells.iter().flat_map(|cell| cell.faces.iter().map(|face| face.neighbour)).collect(),
+            weight: cells.iter().flat_map(|cell| cell.faces.iter().map(|face| face.weight)).collect(),
+            shift: cells.iter().flat_map(|cell| cell.faces.iter().map(|face| face.shift)).collect(),
             walls: cells.into_iter().flat_map(|cell| cell.walls).collect(),
         }
     }
@@ -174,8 +185,11 @@ fn clip(cloud: &Cloud, point: usize, grid: &Grid) -> Cell {
         }
         match across {
             Across::Point(other) => {
-                let distance = shortest(position[other as usize] - own, *period).length();
-                cell.faces.push((other, length / distance));
+                let offset = shortest(position[other as usize] - own, *period);
+                let distance = offset.length();
+                // The middle between the points lies on the face's line.
+                let shift = 0.5 * (from + to).dot(offset.perp()) / distance;
+                cell.faces.push(Face { neighbour: other, weight: length / distance, shift });
             }
             // Corners run against the clock: outward is to the right.
             Across::Wall => {
@@ -184,20 +198,20 @@ fn clip(cloud: &Cloud, point: usize, grid: &Grid) -> Cell {
             }
         }
     }
-    cell.faces.sort_unstable_by_key(|&(neighbour, _)| neighbour);
+    cell.faces.sort_unstable_by_key(|face| face.neighbour);
     cell
 }
 
 /// Gives both sides of every face the mean of what they found; a face seen from one side alone is a rounding matter
 /// and goes.
 fn symmetrise(cells: &mut [Cell]) {
-    let seen: Vec<Vec<(u32, f64)>> = cells.iter().map(|cell| cell.faces.clone()).collect();
+    let seen: Vec<Vec<Face>> = cells.iter().map(|cell| cell.faces.clone()).collect();
     cells.par_iter_mut().enumerate().for_each(|(point, cell)| {
-        cell.faces.retain_mut(|(neighbour, weight)| {
-            let other = &seen[*neighbour as usize];
-            match other.binary_search_by_key(&(point as u32), |&(back, _)| back) {
+        cell.faces.retain_mut(|face| {
+            let other = &seen[face.neighbour as usize];
+            match other.binary_search_by_key(&(point as u32), |back| back.neighbour) {
                 Ok(found) => {
-                    *weight = 0.5 * (*weight + other[found].1);
+                    face.weight = 0.5 * (face.weight + other[found].weight);
                     true
                 }
                 Err(_) => false,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::cpu::fields::Fields;
-use crate::cpu::operations::conservative::{self, Conservative, Faces};
+use crate::cpu::operations::conservative::{self, Conservative, Faces, Fluxes};
 use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
 use crate::cpu::operations::fits::{self, Fits};
 use crate::cpu::operations::moments::WeightFunction;
@@ -55,7 +55,7 @@ impl<T: Real> CpuEngine<T> {
             fields.write(buffer, &data)?;
         }
         let per_volume = reciprocals(fields.real(Buffer::Volume)?);
-        let domain = Domain::new(scene.constants.bounds, scene.constants.period);
+        let domain = Domain::new(scene.constants.size, scene.constants.period);
         Ok(Self { scene, fields, domain, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
@@ -110,6 +110,15 @@ impl<T: Real> CpuEngine<T> {
             weight: self.fields.real(Buffer::FaceWeight)?,
             count: self.fields.index(Buffer::FaceCount)?,
             capacity: self.scene.sizes.face_capacity,
+        })
+    }
+
+    fn fluxes(&self) -> Result<Fluxes<'_, T>, EngineError> {
+        Ok(Fluxes {
+            points: self.fields.index(Buffer::FluxPoints)?,
+            count: self.fields.index(Buffer::FluxCount)?,
+            row: self.fields.real(Buffer::FluxRow)?,
+            capacity: self.scene.sizes.flux_capacity,
         })
     }
 
@@ -383,6 +392,13 @@ impl<T: Real> CpuEngine<T> {
                     );
                 });
             }
+            Operation::DivergenceByFit => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    let scale = T::from_f64(-density_per_kick);
+                    let velocity = self.fields.real(Buffer::Projected)?;
+                    conservative::divergence_by_fit(self.fluxes()?, velocity, scale, &mut source);
+                });
+            }
             Operation::AddWallFlux => {
                 with_taken!(self.fields, [source = Buffer::Source], {
                     let scale = T::from_f64(-density_per_kick);
@@ -551,6 +567,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
             Operation::Divergence
+            | Operation::DivergenceByFit
             | Operation::AddWallFlux
             | Operation::CollocatedSource
             | Operation::ConjugateGradient
@@ -594,8 +611,12 @@ impl<T: Real> Engine for CpuEngine<T> {
             let mut flux = vec![T::zero(); scene.padded()];
             let position = self.standing(Buffer::Position)?;
             let (faces, one) = (self.faces()?, T::from_f64(1.0));
-            with_space!(self.domain, space =>
-                conservative::divergence(faces, space, position, velocity, one, &mut flux));
+            if scene.fluxes().is_some() {
+                conservative::divergence_by_fit(self.fluxes()?, velocity, one, &mut flux);
+            } else {
+                with_space!(self.domain, space =>
+                    conservative::divergence(faces, space, position, velocity, one, &mut flux));
+            }
             if scene.plan.through_flow {
                 conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, one, &mut flux);
             }

@@ -87,6 +87,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("FORCED", forced),
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
+        ("FLUX_CAPACITY", sizes.flux_capacity),
         ("AROUND_CAPACITY", scene.plan.around_capacity(sizes)),
         ("CELLS", sizes.cells),
         ("CELLS_X", constants.grid.cells[0] as usize),
@@ -125,12 +126,10 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     for (name, value) in real {
         line(&mut text, format_args!("const {name}: real = {value:e};"));
     }
-    let [low, high] = constants.bounds;
     let per_period = constants.period.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
     let pairs: &[(&str, DVec2)] = &[
         ("CELLS_PER_METRE", constants.grid.per_metre.into()),
-        ("LOWEST", low),
-        ("HIGHEST", high),
+        ("SIZE", constants.size),
         ("PERIOD", constants.period),
         ("PER_PERIOD", per_period),
     ];

@@ -131,8 +131,9 @@ pub(super) fn measured_arrays(scene: &Scene) -> Arrays {
         Buffer::Support(standing),
         Buffer::Factor(standing),
     ];
-    let faces = [Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount, Buffer::WallFlux];
+    let faces = [Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount];
+    let fluxes = [Buffer::FluxPoints, Buffer::FluxCount, Buffer::FluxRow, Buffer::WallFlux];
     let fields = [Buffer::Position(standing), Buffer::Volume, Buffer::Projected, Buffer::Reported];
     let used = scene.plan.buffers();
-    reading(fits.into_iter().chain(faces).chain(fields).filter(|buffer| used.contains(buffer)))
+    reading(fits.into_iter().chain(faces).chain(fluxes).chain(fields).filter(|buffer| used.contains(buffer)))
 }

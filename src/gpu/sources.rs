@@ -81,6 +81,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
         Operation::Predict => once(stage!("predict", Points)),
         Operation::Divergence => once(stage!("divergence", Points)),
+        Operation::DivergenceByFit => once(stage!("divergence_by_fit", Points)),
         Operation::AddWallFlux => once(stage!("add_wall_flux", Points)),
         Operation::CollocatedSource => once(stage!("collocated_source", Points)),
         Operation::ConjugateGradient => Stages::Solve {
@@ -144,6 +145,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "fit" => text!("fit"),
         "fit_rows" => text!("fit_rows"),
         "gradient" => text!("gradient"),
+        "fitted_flux" => text!("fitted_flux"),
         "evaluate" => text!("evaluate"),
         "sums" => text!("sums"),
         "total" => text!("total"),
@@ -163,6 +165,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "matrix" => text!("matrix/collocated"),
         "density" if conservative => text!("density/conservative"),
         "density" => text!("density/collocated"),
+        "divergence_of" if scene.fluxes().is_some() => text!("divergence/fitted_faces"),
         "divergence_of" if conservative => text!("divergence/conservative"),
         "divergence_of" => text!("divergence/fitted"),
         _ => return None,

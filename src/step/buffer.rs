@@ -43,6 +43,13 @@ pub enum Buffer {
     FaceWeight,
     /// Slots of `FaceNeighbours` in use.
     FaceCount,
+    /// Points whose velocities make up the volume flux out of every cell, blocked, `flux_capacity` slots; unused slots hold the
+    /// point itself.
+    FluxPoints,
+    /// What each is multiplied by, m, blocked: of u, then of v, `2 flux_capacity` slots; zero in unused ones.
+    FluxRow,
+    /// Slots of `FluxPoints` in use.
+    FluxCount,
     /// Volume flux out of every cell through the walls that it has a piece of, m^2/s. Through-flow alone.
     WallFlux,
     /// Outward unit normal at boundary points, zero inside; interleaved.
@@ -111,6 +118,9 @@ impl Buffer {
             Buffer::FaceNeighbours => ("face_neighbours", None),
             Buffer::FaceWeight => ("face_weight", None),
             Buffer::FaceCount => ("face_count", None),
+            Buffer::FluxPoints => ("flux_points", None),
+            Buffer::FluxRow => ("flux_row", None),
+            Buffer::FluxCount => ("flux_count", None),
             Buffer::WallFlux => ("wall_flux", None),
             Buffer::Normal => ("normal", None),
             Buffer::LaplacianRow => ("laplacian_row", None),
@@ -149,7 +159,9 @@ impl Buffer {
             | Buffer::NeighbourCount(_)
             | Buffer::Rung(_)
             | Buffer::FaceNeighbours
-            | Buffer::FaceCount => Element::Index,
+            | Buffer::FaceCount
+            | Buffer::FluxPoints
+            | Buffer::FluxCount => Element::Index,
             _ => Element::Real,
         }
     }
@@ -169,6 +181,8 @@ impl Buffer {
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
+            Buffer::FluxPoints => sizes.flux_capacity,
+            Buffer::FluxRow => 2 * sizes.flux_capacity,
             Buffer::Factor(_) => 15,
             Buffer::Coefficients => 10,
             _ => 1,

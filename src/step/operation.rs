@@ -62,6 +62,8 @@ pub enum Operation {
     Predict,
     /// Source of the conservative pressure equation: the volume flux of `u*` out of every cell.
     Divergence,
+    /// The same on scattered points, with `u*` fitted on every face.
+    DivergenceByFit,
     /// Adds to it what the walls let through.
     AddWallFlux,
     /// Source of the collocated pressure equation: the fitted divergence inside, the normal velocity to be stopped at walls.
@@ -103,6 +105,7 @@ impl Operation {
             Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
+            Operation::DivergenceByFit => "divergence_by_fit",
             Operation::AddWallFlux => "add_wall_flux",
             Operation::CollocatedSource => "collocated_source",
             Operation::ConjugateGradient => "conjugate_gradient",
@@ -152,6 +155,7 @@ impl Operation {
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
             Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
+            Operation::DivergenceByFit => vec![FluxPoints, FluxCount, FluxRow, Projected],
             // The source is there already: a sum, as the kick of a force is.
             Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
@@ -185,7 +189,10 @@ impl Operation {
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]
             }
-            Operation::Divergence | Operation::AddWallFlux | Operation::CollocatedSource => vec![Source],
+            Operation::Divergence
+            | Operation::DivergenceByFit
+            | Operation::AddWallFlux
+            | Operation::CollocatedSource => vec![Source],
             Operation::ConjugateGradient => vec![Pressure, Residual, Direction, Product],
             Operation::Bicgstab => {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]

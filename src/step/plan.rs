@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{Axes, Case, Gradient, PressureForm, Remap, Solver, Splitting};
+use crate::case::{Arrangement, Axes, Case, Gradient, PressureForm, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -14,6 +14,8 @@ pub struct Sizes {
     pub capacity: usize,
     /// Most faces that a cell has.
     pub face_capacity: usize,
+    /// Most points that the flux out of a cell is made of.
+    pub flux_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
 }
@@ -45,6 +47,8 @@ impl Plan {
         let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
         let standing = Points::Standing;
         let gradient = effects.pressure.as_ref().map(|pressure| pressure.gradient());
+        // On a lattice the middles of the faces are the middles between the points; the adjoint gradient is that of the plain flux.
+        let fits_faces = gradient == Some(Gradient::Fit) && case.cloud.arrangement != Arrangement::Regular;
         let mut setup =
             vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
         if effects.viscosity.is_some() || collocated {
@@ -78,6 +82,7 @@ impl Plan {
         kick.push(Predict);
         if let Some(pressure) = &effects.pressure {
             kick.push(match pressure.form {
+                PressureForm::Conservative if fits_faces => DivergenceByFit,
                 PressureForm::Conservative => Divergence,
                 PressureForm::Collocated => {
                     setup.push(AssembleCollocated);

@@ -90,6 +90,38 @@ pub fn divergence<T: Real, S: Space<T>>(
     });
 }
 
+/// The flux of a velocity out of every cell as a sum over points: `capacity` slots a point, blocked, `row` twice as many.
+#[derive(Clone, Copy)]
+pub struct Fluxes<'a, T> {
+    pub points: &'a [u32],
+    pub count: &'a [u32],
+    /// m; of u, then of v.
+    pub row: &'a [T],
+    pub capacity: usize,
+}
+
+/// `scale sum_k r_ik . u_k`: the volume flux out of every cell, m^2/s, times `scale`, the velocity fitted on its faces.
+pub fn divergence_by_fit<T: Real>(fluxes: Fluxes<T>, velocity: &[T], scale: T, out: &mut [T]) {
+    let Fluxes { points, count, row, capacity } = fluxes;
+    let scale = T::Pack::splat(scale);
+    blocks::for_each(out, 1, &|block, out| {
+        for first in (0..BLOCK).step_by(T::Pack::LANES) {
+            let i = block * BLOCK + first;
+            let used = count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0) as usize;
+            let mut sum = T::Pack::zero();
+            for slot in 0..used.min(capacity) {
+                let index = &points[blocks::at(i, slot, capacity)..];
+                // SAFETY: every stored point is below the number of points.
+                let [u, v] = unsafe { T::Pack::gather_vectors(velocity, index) };
+                let [x, y] =
+                    [slot, capacity + slot].map(|slot| T::Pack::load(&row[blocks::at(i, slot, 2 * capacity)..]));
+                sum = y.mul_add(v, x.mul_add(u, sum));
+            }
+            (scale * sum).store(&mut out[first..]);
+        }
+    });
+}
+
 /// Adds `scale` times the volume flux that the walls let through, outward, m^2/s: of every cell the part of
 /// [`divergence`] that is data.
 pub fn add_wall_flux<T: Real>(wall_flux: &[T], scale: T, out: &mut [T]) {

@@ -107,8 +107,6 @@ pub fn find_neighbours<T: Real, S: Space<T>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec2;
-
     use crate::cloud::{shortest, test_clouds};
     use crate::cpu::operations::space::Domain;
     use crate::with_space;
@@ -125,7 +123,7 @@ mod tests {
             let padded = blocks::padded(points);
             let capacity = 64;
             let (mut neighbours, mut count) = (vec![0; padded * capacity], vec![0; padded]);
-            let domain = Domain::new([DVec2::ZERO, cloud.size], cloud.period);
+            let domain = Domain::new(cloud.size, cloud.period);
             with_space!(domain, space => {
                 let (position, start, sorted) = (&position[..], &start[..], &sorted[..]);
                 let search = Search { position, points, grid: &grid, start, sorted, space };

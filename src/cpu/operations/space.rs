@@ -22,8 +22,7 @@ pub trait Space<T: Real>: Copy + Send + Sync {
 /// A rectangle with walls all round.
 #[derive(Debug, Clone, Copy)]
 pub struct Walled<T> {
-    low: [T; 2],
-    high: [T; 2],
+    size: [T; 2],
 }
 
 /// A rectangle that repeats along x, y or both.
@@ -44,10 +43,9 @@ pub enum Domain<T> {
 }
 
 impl<T: Real> Domain<T> {
-    /// `bounds` are the lower left and the upper right end of the places that [`Space::inside`] lets stand.
-    pub fn new(bounds: [DVec2; 2], period: DVec2) -> Self {
-        let [low, high] = bounds.map(|corner| corner.to_array().map(T::from_f64));
-        let walls = Walled { low, high };
+    /// Of `size` along x and y, m; `period` is the same along an axis that repeats, 0 along another.
+    pub fn new(size: DVec2, period: DVec2) -> Self {
+        let walls = Walled { size: size.to_array().map(T::from_f64) };
         match period == DVec2::ZERO {
             true => Domain::Walled(walls),
             false => {
@@ -76,8 +74,8 @@ impl<T: Real> Walled<T> {
     fn clamp(self, place: [T; 2]) -> [T; 2] {
         // Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that of a corner.
         let along = |axis: usize| match place[axis] {
-            x if x < self.low[axis] => self.low[axis],
-            x if x > self.high[axis] => self.high[axis],
+            x if x < T::zero() => T::zero(),
+            x if x > self.size[axis] => self.size[axis],
             x => x,
         };
         [along(0), along(1)]
@@ -138,12 +136,12 @@ mod tests {
     use crate::cpu::real::One;
 
     /// Along x it repeats after 2 m, along y it ends at 3 m.
-    const BOUNDS: [DVec2; 2] = [DVec2::ZERO, DVec2::new(2.0, 3.0)];
+    const SIZE: DVec2 = DVec2::new(2.0, 3.0);
     const PERIOD: DVec2 = DVec2::new(2.0, 0.0);
 
     #[test]
     fn offsets_are_those_of_the_host() {
-        let Domain::Periodic(space) = Domain::<f64>::new(BOUNDS, PERIOD) else { panic!("it repeats") };
+        let Domain::Periodic(space) = Domain::<f64>::new(SIZE, PERIOD) else { panic!("it repeats") };
         for k in -19..=19 {
             let d = DVec2::splat(0.1 * f64::from(k));
             let [x, y] = space.shortest([One(d.x), One(d.y)]);
@@ -153,7 +151,7 @@ mod tests {
 
     #[test]
     fn places_come_back_round_the_period_and_stop_at_the_walls() {
-        let Domain::Periodic(space) = Domain::<f32>::new(BOUNDS, PERIOD) else { panic!("it repeats") };
+        let Domain::Periodic(space) = Domain::<f32>::new(SIZE, PERIOD) else { panic!("it repeats") };
         assert_eq!(space.inside([-0.5, -0.5]), [1.5, 0.0]);
         assert_eq!(space.inside([9.25, 3.5]), [1.25, 3.0]);
         assert_eq!(space.inside([-1e-30, 1.0]), [0.0, 1.0]);
@@ -162,7 +160,7 @@ mod tests {
 
     #[test]
     fn between_walls_offsets_stay_and_places_stop() {
-        let Domain::Walled(space) = Domain::<f64>::new(BOUNDS, DVec2::ZERO) else { panic!("it ends") };
+        let Domain::Walled(space) = Domain::<f64>::new(SIZE, DVec2::ZERO) else { panic!("it ends") };
         let [x, y] = space.shortest([One(1.9), One(-2.9)]);
         assert_eq!([x.0, y.0], [1.9, -2.9]);
         assert_eq!(space.inside([2.5, -1.0]), [2.0, 0.0]);

@@ -1,0 +1,8 @@
+// Divergence of the projected velocity, 1/s: the volume flux out of a cell over its volume, a quadratic fitted on every face.
+
+#import fitted_flux
+#import wall_flux_of
+
+fn divergence_of(i: u32) -> real {
+    return (fitted_flux(i) + wall_flux_of(i)) / volume[i];
+}

@@ -1,0 +1,177 @@
+//! The volume flux of a velocity out of every Voronoi cell, as a sum over the points around it.
+//!
+//! Continuous: `V_i div u`, the mean over a cell, is `sum_j int u . n` over its faces. Discrete: `sum_k r_ik . u_k`. On each face
+//! a quadratic is fitted (least squares) to the points that both its points see, and integrated along it: exact for
+//! quadratic velocities, of second order on scattered points, where the mean of a face's two points is not (the face's middle
+//! lies beside the middle between them). What leaves one cell enters another, whatever the velocity. Weight of a point
+//! at scaled distances `q`, `q'` from the two: `(1 - q^2)^2 (1 - q'^2)^2`. Between two points on walls the velocity may jump, as
+//! at the ends of a lid: there it is their mean, and so where there are too few points for a fit.
+//! Units: m.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::grid::Grid;
+use super::voronoi::Cells;
+use super::{Cloud, shortest};
+
+/// Coefficients of a quadratic.
+const TERMS: usize = 6;
+/// Least pivot of a fit, relative to the diagonal entry it came from.
+const LEAST_PIVOT: f64 = 1e-8;
+
+/// The rows `r_ik` of all cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fluxes {
+    /// Where each cell's terms begin; one more entry than cells.
+    start: Vec<usize>,
+    point: Vec<u32>,
+    factor: Vec<DVec2>,
+}
+
+/// The mean of a velocity over one face, as a sum over points: whose velocity, and its share.
+type Mean = Vec<(u32, f64)>;
+
+impl Fluxes {
+    /// Fits on the faces of `cells`, each to the points within `radius`, m, of both its points.
+    pub fn build(cloud: &Cloud, cells: &Cells, radius: f64) -> Self {
+        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, radius);
+        // Of the faces to points that come later: each once.
+        let means = |point: usize| -> Vec<(usize, Mean)> {
+            let around = Around::new(cloud, &grid, point, radius);
+            let later = (cells.start[point]..cells.start[point + 1])
+                .filter(|&face| cells.neighbour[face] as usize > point)
+                .map(|face| (face, around.mean(cloud, cells, face)));
+            later.collect()
+        };
+        let means: Vec<Vec<(usize, Mean)>> = (0..cloud.len()).into_par_iter().map(means).collect();
+        let row = |point: usize| -> Vec<(u32, DVec2)> {
+            let mut terms = Vec::new();
+            for face in cells.start[point]..cells.start[point + 1] {
+                let other = cells.neighbour[face] as usize;
+                let area = cells.weight[face] * shortest(cloud.position[other] - cloud.position[point], cloud.period);
+                let of = |(found, _): &&(usize, Mean)| match other > point {
+                    true => *found == face,
+                    false => cells.neighbour[*found] as usize == point,
+                };
+                if let Some((_, mean)) = means[point.min(other)].iter().find(of) {
+                    terms.extend(mean.iter().map(|&(k, share)| (k, share * area)));
+                }
+            }
+            terms.sort_unstable_by_key(|&(k, _)| k);
+            terms.dedup_by(|(k, factor), (kept, sum)| {
+                let same = k == kept;
+                if same {
+                    *sum += *factor;
+                }
+                same
+            });
+            terms
+        };
+        let rows: Vec<Vec<(u32, DVec2)>> = (0..cloud.len()).into_par_iter().map(row).collect();
+        let mut start = vec![0];
+        start.extend(rows.iter().scan(0, |sum, row| {
+            *sum += row.len();
+            Some(*sum)
+        }));
+        let (point, factor) = rows.into_iter().flatten().unzip();
+        Self { start, point, factor }
+    }
+
+    /// The terms of one cell: whose velocity, and the factor of it, m.
+    pub fn row(&self, cell: usize) -> impl Iterator<Item = (usize, DVec2)> + '_ {
+        let range = self.start[cell]..self.start[cell + 1];
+        range.map(|term| (self.point[term] as usize, self.factor[term]))
+    }
+
+    /// The most terms that any cell has.
+    pub fn most_terms(&self) -> usize {
+        self.start.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(0)
+    }
+}
+
+/// The points that one sees, and how far they are from it.
+struct Around {
+    point: usize,
+    radius: f64,
+    near: Vec<(u32, DVec2)>,
+}
+
+impl Around {
+    fn new(cloud: &Cloud, grid: &Grid, point: usize, radius: f64) -> Self {
+        let own = cloud.position[point];
+        let offset = |other: usize| (other as u32, shortest(cloud.position[other] - own, cloud.period));
+        let near = (0..=1).flat_map(|ring| grid.ring(own, ring)).map(offset);
+        let mut near: Vec<_> = near.filter(|(_, offset)| offset.length_squared() < radius * radius).collect();
+        near.sort_unstable_by_key(|&(other, _)| other);
+        Self { point, radius, near }
+    }
+
+    fn mean(&self, cloud: &Cloud, cells: &Cells, face: usize) -> Mean {
+        let other = cells.neighbour[face];
+        let on_walls = self.point >= cloud.interior && other as usize >= cloud.interior;
+        let fitted = if on_walls { None } else { self.fitted(cloud, cells, face) };
+        fitted.unwrap_or_else(|| vec![(self.point as u32, 0.5), (other, 0.5)])
+    }
+
+    fn fitted(&self, cloud: &Cloud, cells: &Cells, face: usize) -> Option<Mean> {
+        let Self { point, radius, near } = self;
+        let across = shortest(cloud.position[cells.neighbour[face] as usize] - cloud.position[*point], cloud.period);
+        let along = across.perp() / across.length();
+        let middle = 0.5 * across + cells.shift[face] * along;
+        let half = 0.5 * cells.weight[face] * across.length() * along;
+        let basis = |place: DVec2| {
+            let [x, y] = ((place - middle) / *radius).to_array();
+            [1.0, x, y, x * x, x * y, y * y]
+        };
+        // 0 from the radius on.
+        let kernel = |offset: DVec2| (1.0 - offset.length_squared() / (radius * radius)).max(0.0).powi(2);
+        let seen: Vec<(u32, [f64; TERMS], f64)> = near
+            .iter()
+            .map(|&(k, offset)| (k, basis(offset), kernel(offset) * kernel(offset - across)))
+            .filter(|&(.., weight)| weight > 0.0)
+            .collect();
+        let mut matrix = [[0.0; TERMS]; TERMS];
+        for (_, basis, weight) in &seen {
+            for row in 0..TERMS {
+                for column in 0..=row {
+                    matrix[row][column] += weight * basis[row] * basis[column];
+                }
+            }
+        }
+        // Simpson's rule is exact for quadratics.
+        let [begin, centre, end] = [middle - half, middle, middle + half].map(basis);
+        let integral = std::array::from_fn(|k| (begin[k] + 4.0 * centre[k] + end[k]) / 6.0);
+        let coefficient = solve(matrix, integral)?;
+        let share = |basis: &[f64; TERMS]| basis.iter().zip(&coefficient).map(|(b, c)| b * c).sum::<f64>();
+        Some(seen.iter().map(|(k, basis, weight)| (*k, weight * share(basis))).collect())
+    }
+}
+
+/// Solves a symmetric system, given by its lower triangle, by Cholesky; `None` where a pivot is too small.
+fn solve(mut matrix: [[f64; TERMS]; TERMS], right: [f64; TERMS]) -> Option<[f64; TERMS]> {
+    for row in 0..TERMS {
+        let diagonal = matrix[row][row];
+        for column in 0..=row {
+            let done = (0..column).map(|k| matrix[row][k] * matrix[column][k]).sum::<f64>();
+            let entry = matrix[row][column] - done;
+            if column < row {
+                matrix[row][column] = entry / matrix[column][column];
+            } else if entry > LEAST_PIVOT * diagonal {
+                matrix[row][row] = entry.sqrt();
+            } else {
+                return None;
+            }
+        }
+    }
+    let mut x = right;
+    for row in 0..TERMS {
+        let done = (0..row).map(|k| matrix[row][k] * x[k]).sum::<f64>();
+        x[row] = (x[row] - done) / matrix[row][row];
+    }
+    for row in (0..TERMS).rev() {
+        let done = (row + 1..TERMS).map(|k| matrix[k][row] * x[k]).sum::<f64>();
+        x[row] = (x[row] - done) / matrix[row][row];
+    }
+    Some(x)
+}
