@@ -1,6 +1,6 @@
 //! What holds where a case leaves a key open and the answer depends on another key.
 
-use super::{Arrangement, Case, Cloud, Gradient, Pressure, PressureForm, Solver};
+use super::{Arrangement, Case, Cloud, Divergence, Gradient, Pressure, PressureForm, Solver};
 
 /// Largest displacement of a jittered point along each axis, in spacings.
 pub const DEFAULT_JITTER: f64 = 0.4;
@@ -30,6 +30,11 @@ impl Cloud {
 }
 
 impl Pressure {
+    /// The flux through the faces of the conservative form.
+    pub fn divergence(&self) -> Divergence {
+        self.divergence.unwrap_or(Divergence::Faces)
+    }
+
     /// The gradient of the correction; the collocated form has the fit's alone.
     pub fn gradient(&self) -> Gradient {
         self.gradient.unwrap_or(Gradient::Fit)
@@ -60,6 +65,7 @@ impl Case {
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.solver = Some(pressure.solver());
             if pressure.form == PressureForm::Conservative {
+                pressure.divergence = Some(pressure.divergence());
                 pressure.gradient = Some(pressure.gradient());
             }
         }

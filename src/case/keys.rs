@@ -22,6 +22,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
     ("effects.pressure.form", r#""conservative" or "collocated""#),
+    ("effects.pressure.divergence", r#""faces" or "fit""#),
     ("effects.pressure.gradient", r#""fit" or "adjoint""#),
     ("effects.pressure.solver", r#""conjugate_gradient", "bicgstab" or "direct""#),
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
@@ -140,7 +141,8 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 9] = [
+        let keys: [(&str, &[&str]); 10] = [
+            ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
             ("cloud.arrangement", words::<Arrangement>()),

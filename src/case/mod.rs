@@ -187,6 +187,8 @@ pub struct Viscosity {
 #[serde(deny_unknown_fields, default)]
 pub struct Pressure {
     pub form: PressureForm,
+    /// `conservative` alone; `faces` where absent.
+    pub divergence: Option<Divergence>,
     /// `conservative` alone; `fit` where absent.
     pub gradient: Option<Gradient>,
     /// `conjugate_gradient` for the conservative form and `bicgstab` for the collocated one where absent.
@@ -198,7 +200,7 @@ pub struct Pressure {
 
 impl Default for Pressure {
     fn default() -> Self {
-        Self { form: PressureForm::Conservative, gradient: None, solver: None, tolerance: 1e-6, max_iterations: 2000 }
+        Self { form: PressureForm::Conservative, divergence: None, gradient: None, solver: None, tolerance: 1e-6, max_iterations: 2000 }
     }
 }
 
@@ -209,6 +211,17 @@ pub enum PressureForm {
     Conservative,
     /// The paper's: the fitted Laplacian inside, the fitted normal derivative at walls; not symmetric.
     Collocated,
+}
+
+/// How the volume flux through the faces of the cells is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Divergence {
+    /// From the mean of a face's two points: exact for the middle between them, of which the face's own lies beside on
+    /// scattered points.
+    Faces,
+    /// From a quadratic fitted on every face: second order on scattered points.
+    Fit,
 }
 
 /// How the pressure gradient of the correction is formed.

@@ -1,11 +1,11 @@
 //! The volume flux of a velocity out of every Voronoi cell, as a sum over the points around it.
 //!
 //! Continuous: `V_i div u`, the mean over a cell, is `sum_j int u . n` over its faces. Discrete: `sum_k r_ik . u_k`. On each face
-//! a quadratic is fitted (least squares) to the points that both its points see, and integrated along it: exact for
-//! quadratic velocities, of second order on scattered points, where the mean of a face's two points is not (the face's middle
-//! lies beside the middle between them). What leaves one cell enters another, whatever the velocity. Weight of a point
-//! at scaled distances `q`, `q'` from the two: `(1 - q^2)^2 (1 - q'^2)^2`. Between two points on walls the velocity may jump, as
-//! at the ends of a lid: there it is their mean, and so where there are too few points for a fit.
+//! a quadratic is fitted (least squares) to the points around its middle, and integrated along it: exact for quadratic
+//! velocities, of second order on scattered points, where the mean of a face's two points is not (the face's middle lies
+//! beside the middle between them). What leaves one cell enters another, whatever the velocity. Weight of a point at scaled
+//! distance `q` from the middle: `(1 - q^2)^2`. Between two points on walls the velocity may jump, as at the ends of a lid:
+//! there it is their mean, and so where there are too few points for a fit.
 //! Units: m.
 
 use glam::DVec2;
@@ -17,6 +17,10 @@ use super::{Cloud, shortest};
 
 /// Coefficients of a quadratic.
 const TERMS: usize = 6;
+/// Radius of a fit over that of the points' own. Narrower ones lose sight of modes of single points, which then grow.
+const REACH: f64 = 0.9;
+/// Farthest that the middle of a face is from its points, in the same unit; one farther off sees fewer points.
+const FARTHEST: f64 = 0.7;
 /// Least pivot of a fit, relative to the diagonal entry it came from.
 const LEAST_PIVOT: f64 = 1e-8;
 
@@ -33,12 +37,12 @@ pub struct Fluxes {
 type Mean = Vec<(u32, f64)>;
 
 impl Fluxes {
-    /// Fits on the faces of `cells`, each to the points within `radius`, m, of both its points.
+    /// Fits on the faces of `cells`; `radius`, m, is that of a point's neighbourhood.
     pub fn build(cloud: &Cloud, cells: &Cells, radius: f64) -> Self {
-        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, radius);
+        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, (REACH + FARTHEST) * radius);
         // Of the faces to points that come later: each once.
         let means = |point: usize| -> Vec<(usize, Mean)> {
-            let around = Around::new(cloud, &grid, point, radius);
+            let around = Around::new(cloud, &grid, point, REACH * radius);
             let later = (cells.start[point]..cells.start[point + 1])
                 .filter(|&face| cells.neighbour[face] as usize > point)
                 .map(|face| (face, around.mean(cloud, cells, face)));
@@ -90,9 +94,10 @@ impl Fluxes {
     }
 }
 
-/// The points that one sees, and how far they are from it.
+/// The points that the faces of one may see, and how far they are from it.
 struct Around {
     point: usize,
+    /// Of a fit, m.
     radius: f64,
     near: Vec<(u32, DVec2)>,
 }
@@ -102,9 +107,7 @@ impl Around {
         let own = cloud.position[point];
         let offset = |other: usize| (other as u32, shortest(cloud.position[other] - own, cloud.period));
         let near = (0..=1).flat_map(|ring| grid.ring(own, ring)).map(offset);
-        let mut near: Vec<_> = near.filter(|(_, offset)| offset.length_squared() < radius * radius).collect();
-        near.sort_unstable_by_key(|&(other, _)| other);
-        Self { point, radius, near }
+        Self { point, radius, near: near.collect() }
     }
 
     fn mean(&self, cloud: &Cloud, cells: &Cells, face: usize) -> Mean {
@@ -128,7 +131,7 @@ impl Around {
         let kernel = |offset: DVec2| (1.0 - offset.length_squared() / (radius * radius)).max(0.0).powi(2);
         let seen: Vec<(u32, [f64; TERMS], f64)> = near
             .iter()
-            .map(|&(k, offset)| (k, basis(offset), kernel(offset) * kernel(offset - across)))
+            .map(|&(k, offset)| (k, basis(offset), kernel(offset - middle)))
             .filter(|&(.., weight)| weight > 0.0)
             .collect();
         let mut matrix = [[0.0; TERMS]; TERMS];

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{Arrangement, Axes, Case, Gradient, PressureForm, Remap, Solver, Splitting};
+use crate::case::{Axes, Case, Divergence as Flux, Gradient, PressureForm, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -47,8 +47,7 @@ impl Plan {
         let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
         let standing = Points::Standing;
         let gradient = effects.pressure.as_ref().map(|pressure| pressure.gradient());
-        // On a lattice the middles of the faces are the middles between the points; the adjoint gradient is that of the plain flux.
-        let fits_faces = gradient == Some(Gradient::Fit) && case.cloud.arrangement != Arrangement::Regular;
+        let fits_faces = effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == Flux::Fit);
         let mut setup =
             vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
         if effects.viscosity.is_some() || collocated {

@@ -188,6 +188,31 @@ fn every_shipped_case_loads_and_finds_its_profiles() {
     for path in cases {
         let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let profiles: Vec<_> = case.expect.values().filter_map(|expectation| expectation.profile.as_ref()).collect();
-        assert!(!profiles.is_empty() && profiles.iter().all(|profile| profile.is_file()), "{profiles:?}");
+        assert!(case.exact.is_some() || !profiles.is_empty(), "{}: nothing to be held to", case.title);
+        assert!(profiles.iter().all(|profile| profile.is_file()), "{profiles:?}");
+    }
+}
+
+/// A case that an exact solution solves, and what is wrong beside it.
+#[test]
+fn what_does_not_go_with_an_exact_solution_is_named() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/taylor_green.toml");
+    let load = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+        Case::load(&path, &overrides).map_err(|error| error.to_string())
+    };
+    let case = load(&["domain.width=2.0"]).expect("two vortices side by side");
+    // The lines of points are half a spacing off the seam, and none is there twice.
+    assert_eq!(case.point_estimate(), 128.0 * 64.0);
+    for (overrides, expected) in [
+        (&["domain.width=1.5"][..], "exact.solution = \"taylor_green\": has square vortices, as long as the shorter side"),
+        (&["cloud.spacing=0.125"], "domain.width = 1.0: must be above 1.3, 4 times method.radius in spacings"),
+        (&["exact.solution=kovasznay"], "prescribes the velocity on all four sides: it needs domain.periodic = \"none\""),
+        (&["expect.velocity.line={ x = 0.5 }"], "belongs to the other measures: an error is over all points"),
+        (&["expect.velocity.value=1.0"], "expect.velocity.value = 1.0: belongs to the measures minimum and maximum"),
+        (&["expect.velocity.profile=a.csv"], "belongs to the measure profile, and measure is \"error\""),
+    ] {
+        let message = load(overrides).expect_err(overrides[0]);
+        assert!(message.contains(expected), "\n  {overrides:?} says\n  {message:?}, not\n  {expected:?}");
     }
 }

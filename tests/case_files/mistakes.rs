@@ -14,14 +14,14 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     // Keys.
     ("spacing = 0.1", "spacng = 0.1", "bad.toml:7: cloud.spacng is not a key (did you mean cloud.spacing?); [cloud] has arrangement, spacing, jitter, minimum_distance, seed"),
     ("title = \"Cavity\"", "titel = \"Cavity\"", "bad.toml:1: titel is not a key (did you mean title?); a case file has title, domain, cloud,"),
-    ("width = 1.0", "width = 1.0\nspacing = 0.1", "bad.toml:4: domain.spacing is not a key (did you mean cloud.spacing?); [domain] has width, height"),
+    ("width = 1.0", "width = 1.0\nspacing = 0.1", "bad.toml:4: domain.spacing is not a key (did you mean cloud.spacing?); [domain] has width, height, periodic"),
     ("kinematic = 0.01", "kinematic = 0.01\nlaw = 3", "bad.toml:16: effects.viscosity.law is not a key; [effects.viscosity] has kinematic"),
     ("top.velocity = [1.0, 0.0]", "lid.velocity = [1.0, 0.0]", "bad.toml:11: boundaries.lid is not a key; [boundaries] has left, right, bottom, top"),
     ("value = -0.2", "vlaue = -0.2", "bad.toml:29: expect.u_min.vlaue is not a key (did you mean expect.u_min.value?)"),
     ("spacing = 0.1\n", "", "bad.toml:5: cloud.spacing is missing: it must be a length above 0, m"),
     ("[fluid]\ndensity = 1.0\n", "", "bad.toml: fluid is missing: it must be a table with the key density"),
     ("kinematic = 0.01\n", "", "bad.toml:14: effects.viscosity.kinematic is missing: it must be a number above 0, m^2/s"),
-    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\" or \"p\""),
+    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\" or \"p\"; with measure = \"error\" also \"velocity\""),
     // Kinds of values.
     ("spacing = 0.1", "spacing = \"fine\"", "bad.toml:7: cloud.spacing = \"fine\": must be a length above 0, m"),
     ("spacing = 0.1", "spacing = nan", "bad.toml:7: cloud.spacing = NaN: must be a length above 0, m; it is not finite"),
@@ -61,6 +61,15 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("top.velocity", "left.velocity", "bad.toml:11: boundaries.left.velocity = [1.0, 0.0]: must be along the wall, [0, v]"),
     ("radius = 2.8", "radius = 1.5", "bad.toml:13: method.radius = 1.5: must be a number above 1.5 and at most 5, in spacings"),
     ("radius = 2.8", "radius = 5.5", "bad.toml:13: method.radius = 5.5: must be a number above 1.5 and at most 5"),
+    // A domain that repeats, and exact solutions.
+    ("height = 1.5", "height = 1.5\nperiodic = \"z\"", "bad.toml:5: domain.periodic = \"z\": must be \"none\", \"x\", \"y\" or \"both\""),
+    ("height = 1.5", "height = 1.5\nperiodic = \"y\"", "bad.toml:12: boundaries.top.velocity = [1.0, 0.0]: the domain repeats along y (domain.periodic), so that there is no wall; leave it out"),
+    ("height = 1.5", "height = 1.5\nperiodic = \"x\"", "bad.toml:3: domain.width = 1.0: must be above 1.1"),
+    ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"poiseuille\"", "bad.toml:15: exact.solution = \"poiseuille\": must be \"taylor_green\" or \"kovasznay\""),
+    ("radius = 2.8", "radius = 2.8\n[exact]\nspeed = 1.0", "bad.toml:15: exact.speed is not a key; [exact] has solution"),
+    ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"kovasznay\"", "bad.toml:11: boundaries.top.velocity = [1.0, 0.0]: the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them"),
+    ("top.velocity = [1.0, 0.0]\n", "[exact]\nsolution = \"taylor_green\"\n", "bad.toml:12: exact.solution = \"taylor_green\": repeats along x and y: it needs domain.periodic = \"both\""),
+    ("[effects.viscosity]\nkinematic = 0.01\n", "[exact]\nsolution = \"kovasznay\"\n", "the table effects.viscosity is absent"),
     // The effects and the time.
     ("kinematic = 0.01", "kinematic = -0.01", "bad.toml:15: effects.viscosity.kinematic = -0.01: must be a number above 0, m^2/s (for none, leave out the table"),
     ("form = \"conservative\"", "form = \"collocated\"\nsolver = \"conjugate_gradient\"", "bad.toml:18: effects.pressure.solver = \"conjugate_gradient\": the collocated matrix (effects.pressure.form) is not symmetric: conjugate gradients do not apply; use bicgstab"),
@@ -95,6 +104,9 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("line = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = \"a\" }\nmeasure = \"minimum\"", "bad.toml:27: expect.u_min.line.x = \"a\": must be { x = NUMBER }"),
     ("value = -0.2\ntolerance = 0.01", "value = -0.2\ntolerance = 0", "bad.toml:30: expect.u_min.tolerance = 0: must be a number above 0, relative"),
     ("tolerance = 0.01\nsource = \"a paper\"\n[", "tolerance = 0.01\nsource = \"\"\n[", "bad.toml:31: expect.u_min.source = \"\": must be a line that says where the value was published"),
+    ("line = { x = 0.5 }\nmeasure = \"minimum\"", "measure = \"minimum\"", "bad.toml:25: expect.u_min.line is missing: it must be { x = NUMBER } or { y = NUMBER }"),
+    ("measure = \"minimum\"", "measure = \"error\"", "bad.toml:28: expect.u_min.measure = \"error\": there is no exact solution: the table exact is absent"),
+    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "component = \"velocity\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:26: expect.u_min.component = \"velocity\": belongs to the measure error"),
     ("[expect.u_min]", "[expect.\"u min\"]", "bad.toml:25: expect.\"u min\" = {"),
 ];
 

@@ -11,7 +11,9 @@ mod spoiled;
 
 mod clouds;
 mod energy;
+mod exact;
 mod fallback;
+mod flux;
 mod ladder;
 mod least_squares;
 mod matrix;

@@ -34,3 +34,47 @@ pub fn cavity_of(n: usize, overrides: &[&str]) -> Case {
     let spacing = format!("cloud.spacing={:e}", 1.0 / n as f64);
     cavity(&[overrides, &[spacing.as_str()]].concat())
 }
+
+/// Second order on scattered points.
+#[allow(dead_code, reason = "not every file of tests asks for it")]
+pub const FIT: &str = "effects.pressure.divergence=fit";
+
+const VORTICES: &str = r#"
+title = "Vortices"
+domain = { width = 1.0, height = 1.0, periodic = "both" }
+cloud = { arrangement = "regular", spacing = 0.05 }
+fluid = { density = 1.0 }
+effects = { viscosity = { kinematic = 0.01 }, pressure = {}, advection = {} }
+time = { end = 0.5 }
+exact = { solution = "taylor_green" }
+output = { pictures = false }
+"#;
+
+const WAKE: &str = r#"
+title = "Wake"
+domain = { width = 1.5, height = 1.0 }
+cloud = { arrangement = "regular", spacing = 0.05 }
+fluid = { density = 1.0 }
+effects = { viscosity = { kinematic = 0.025 }, pressure = { tolerance = 1e-7 }, advection = {} }
+time = { end = 6.0, steady = 1e-4 }
+exact = { solution = "kovasznay" }
+output = { pictures = false }
+"#;
+
+fn case_of(text: &str, n: usize, overrides: &[&str]) -> Case {
+    let spacing = format!("cloud.spacing={:e}", 1.0 / n as f64);
+    let overrides: Vec<String> = overrides.iter().copied().chain([spacing.as_str()]).map(str::to_owned).collect();
+    Case::from_text(text, Path::new("case.toml"), &overrides).expect("a case")
+}
+
+/// Taylor-Green vortices at Re 100 in a periodic box, with `n` spacings to a metre.
+#[allow(dead_code, reason = "not every file of tests has them")]
+pub fn vortices(n: usize, overrides: &[&str]) -> Case {
+    case_of(VORTICES, n, overrides)
+}
+
+/// Kovasznay's flow at Re 40 through a box, with `n` spacings to a metre.
+#[allow(dead_code, reason = "not every file of tests has it")]
+pub fn wake(n: usize, overrides: &[&str]) -> Case {
+    case_of(WAKE, n, overrides)
+}

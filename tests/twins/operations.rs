@@ -62,6 +62,7 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::KeepVelocity
         | Operation::Predict
         | Operation::Divergence
+        | Operation::DivergenceByFit
         | Operation::CollocatedSource
         | Operation::DirectSolve => operation.writes(),
         _ => vec![],

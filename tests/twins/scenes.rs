@@ -4,10 +4,11 @@
 use std::sync::Arc;
 
 use glam::DVec2;
+use stillpoint::case::{Axes, Case};
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
-use crate::cases::cavity_of;
+use crate::cases::{FIT, cavity_of, vortices, wake};
 
 /// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
 const ACROSS: usize = 16;
@@ -62,9 +63,30 @@ const CHANGES: [(&str, &[&str]); 8] = [
     ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
 ];
 
+/// The same of the flows that are known, in domains that repeat and domains that fluid flows through. 14 spacings a metre: no
+/// point stands on the edge of a cell.
+const KNOWN: [(&str, fn(usize, &[&str]) -> Case, &[&str]); 7] = [
+    ("periodic, regular, fitted faces", vortices, &[FIT]),
+    ("periodic, jittered, forward", vortices, &["cloud.arrangement=jittered", "effects.advection.remap=forward", FIT]),
+    ("periodic, random, adjoint", vortices, &["cloud.arrangement=random", "effects.pressure.gradient=adjoint"]),
+    (
+        "periodic, jittered, collocated, projection",
+        vortices,
+        &["cloud.arrangement=jittered", "effects.pressure.form=collocated", "time.splitting=projection"],
+    ),
+    ("through-flow, jittered", wake, &["cloud.arrangement=jittered"]),
+    ("through-flow, random, fitted faces", wake, &["cloud.arrangement=random", FIT]),
+    ("through-flow, regular, collocated", wake, &["effects.pressure.form=collocated"]),
+];
+
 /// Every scene, with its name.
 pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     let mut scenes: Vec<_> = CHANGES.iter().map(|&(name, changes)| (name, Arc::new(of(changes)))).collect();
+    for (name, case, changes) in KNOWN {
+        let changes = [&[TIGHT], changes].concat();
+        scenes.push((name, Arc::new(Scene::build(&case(14, &changes)).expect("a scene"))));
+    }
+    scenes.push(("a channel that repeats", Arc::new(channel())));
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
     scenes.push(("no advection", Arc::new(Scene::build(&still).expect("a scene"))));
@@ -78,6 +100,13 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
 /// The cavity on 17 x 17 points with `changes`.
 pub fn of(changes: &[&str]) -> Scene {
     Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
+}
+
+/// Along x the domain repeats, along y it ends at walls, of which one moves.
+fn channel() -> Scene {
+    let mut case = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
+    case.domain.periodic = Axes::X;
+    Scene::build(&case).expect("a scene")
 }
 
 /// Groups of points out of each other's sight whose fits stand on every rung of the ladder: a dense patch that makes room for

@@ -1,7 +1,7 @@
 //! Checks of the effects, and of the method and the time step where they depend on them.
 
 use super::super::fault::Fault;
-use super::super::{Case, Effects, Pressure, PressureForm, Remap, Solver};
+use super::super::{Case, Divergence, Effects, Gradient, Pressure, PressureForm, Remap, Solver};
 use super::require;
 
 /// Largest displacement of a forward remap, in spacings: beyond, its worst mode grows in every step.
@@ -25,7 +25,12 @@ fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
     require(pressure.tolerance > 0.0 && pressure.tolerance < 1.0, "effects.pressure.tolerance")?;
     require(pressure.max_iterations >= 1, "effects.pressure.max_iterations")?;
     if pressure.form != PressureForm::Collocated {
-        return Ok(());
+        return check_pair(pressure);
+    }
+    if pressure.divergence.is_some() {
+        let reason = "belongs to the conservative form, and effects.pressure.form is \"collocated\", \
+                      which takes the divergence of the fit; leave it out";
+        return Err(Fault::reason("effects.pressure.divergence", reason));
     }
     if pressure.solver == Some(Solver::ConjugateGradient) {
         let reason = "the collocated matrix (effects.pressure.form) is not symmetric: \
@@ -36,6 +41,15 @@ fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
         let reason = "belongs to the conservative form, and effects.pressure.form is \"collocated\", \
                       which takes the gradient of the fit; leave it out";
         return Err(Fault::reason("effects.pressure.gradient", reason));
+    }
+    Ok(())
+}
+
+/// The adjoint gradient is that of the plain flux.
+fn check_pair(pressure: &Pressure) -> Result<(), Fault> {
+    if (pressure.divergence(), pressure.gradient()) == (Divergence::Fit, Gradient::Adjoint) {
+        let reason = "has no adjoint gradient: with effects.pressure.gradient = \"adjoint\" it must be \"faces\"";
+        return Err(Fault::reason("effects.pressure.divergence", reason));
     }
     Ok(())
 }

@@ -54,6 +54,11 @@ const CHANGES: [&[&str]; 5] = [
     ],
 ];
 
+const FIT: &str = "effects.pressure.divergence=\"fit\"";
+/// A flow through a box, and one in a box that repeats.
+const WAKE: &str = "[exact]\nsolution = \"kovasznay\"\n";
+const VORTICES: &str = "[exact]\nsolution = \"taylor_green\"\n";
+
 fn scene_of(text: &str, changes: &[&str]) -> Scene {
     let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
     let case = Case::from_text(text, Path::new("cavity.toml"), &changes).expect("a case");
@@ -71,6 +76,17 @@ fn still_scene() -> Scene {
 /// No pressure: nothing but viscosity and advection.
 fn forceless_scene() -> Scene {
     scene_of(&CAVITY.replace("[effects.pressure]\n", ""), &[])
+}
+
+/// Fluid comes and goes through the sides.
+fn open_scene() -> Scene {
+    scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + WAKE), &[FIT])
+}
+
+/// What leaves one side comes in at the other.
+fn periodic_scene() -> Scene {
+    let changes = ["domain.periodic=\"both\"", "effects.advection.remap=\"forward\"", FIT];
+    scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + VORTICES), &changes)
 }
 
 /// The adapter that the tests run on; `None` where those that need one are skipped.

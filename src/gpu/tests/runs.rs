@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CHANGES, Precision, candidate, engine, forceless_scene, made, scene, still_scene};
+use super::{CHANGES, Precision, candidate, engine, forceless_scene, made, open_scene, periodic_scene, scene, still_scene};
 use crate::cpu::CpuEngine;
 use crate::engine::{Data, Engine, EngineError};
 use crate::scene::Scene;
@@ -50,7 +50,7 @@ fn the_same_seed_gives_the_same_bits() {
 /// Five steps of every scene on both engines; the velocities may lie `velocity` apart, the sums `sums`.
 fn steps_agree(precision: Precision, tolerance: &str, velocity: f64, sums: f64) {
     let changed = |changes: &&[&str]| scene(&[*changes, &[tolerance]].concat());
-    let scenes = CHANGES.iter().map(changed).chain([still_scene(), forceless_scene()]);
+    let scenes = CHANGES.iter().map(changed).chain([still_scene(), forceless_scene(), open_scene(), periodic_scene()]);
     for scene in scenes {
         let clock = scene.clock(0.005);
         let Some(mut gpu) = engine(scene.clone(), precision) else { return };

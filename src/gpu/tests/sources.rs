@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{CHANGES, Precision, forceless_scene, scene, still_scene};
+use super::{CHANGES, Precision, forceless_scene, open_scene, periodic_scene, scene, still_scene};
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
 use crate::gpu::prelude::prelude;
@@ -19,7 +19,8 @@ const NOT_IN_F64: [&str; 12] =
     ["exp", "exp2", "log", "log2", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow"];
 
 fn scenes() -> Vec<Scene> {
-    CHANGES.iter().map(|changes| scene(changes)).chain([still_scene(), forceless_scene()]).collect()
+    let others = [still_scene(), forceless_scene(), open_scene(), periodic_scene()];
+    CHANGES.iter().map(|changes| scene(changes)).chain(others).collect()
 }
 
 /// Every kernel of a scene, by name, as the driver gets it.
@@ -88,6 +89,8 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::Viscosity(Stage::Middle),
         Operation::Predict,
         Operation::Divergence,
+        Operation::DivergenceByFit,
+        Operation::AddWallFlux,
         Operation::CollocatedSource,
         Operation::ConjugateGradient,
         Operation::Bicgstab,

@@ -1,0 +1,103 @@
+//! Whole runs against flows that are known: orders of convergence, and what long and short steps do to the error.
+
+use std::sync::Arc;
+
+use stillpoint::case::{Case, Component};
+use stillpoint::cpu;
+use stillpoint::exact::Exact;
+use stillpoint::measure::FieldError;
+use stillpoint::scene::Scene;
+use stillpoint::simulation::{Stop, simulate};
+
+use crate::bench::order;
+use crate::cases::{ARRANGEMENTS, FIT, vortices, wake};
+
+/// Relative errors of velocity and pressure at the end of a run.
+fn errors(case: &Case) -> [f64; 2] {
+    let scene = Arc::new(Scene::build(case).expect("a scene"));
+    let mut engine = cpu::double(&scene).expect("an engine");
+    let outcome = simulate(&scene, engine.as_mut(), &mut ()).expect("a run");
+    assert!(matches!(outcome.stop, Stop::End | Stop::Steady), "{:?}", outcome.stop);
+    assert_eq!((outcome.fallbacks, &outcome.warnings[..]), (0, &[][..]));
+    let exact = Exact::of(case).expect("an exact flow");
+    [Component::Velocity, Component::P].map(|component| {
+        let FieldError { difference, exact } = FieldError::new(&outcome.snapshot, &exact, component);
+        difference / exact
+    })
+}
+
+/// Short steps and a tight tolerance: what is left is of the spacing alone.
+const FINE: [&str; 3] = ["time.courant=0.1", "effects.pressure.tolerance=1e-8", FIT];
+
+#[test]
+fn vortices_decay_as_they_should_at_order_two_on_every_arrangement() {
+    for (name, arrangement) in ARRANGEMENTS {
+        // With jitter 0.45 and 2.6 spacings some fits are weak.
+        let radius: &[&str] = if name == "regular" { &[] } else { &["method.radius=2.8"] };
+        let of = |n: usize| errors(&vortices(n, &[arrangement, radius, &FINE].concat()));
+        let (coarse, fine) = (of(32), of(64));
+        let [velocity, pressure] = [0, 1].map(|k| order((32, coarse[k]), (64, fine[k])));
+        assert!(velocity > 1.75 && fine[0] < 1.5e-3, "{name}: order {velocity}, {coarse:?} to {fine:?}");
+        assert!(pressure > 1.75 && fine[1] < 1e-2, "{name}: order {pressure}, {coarse:?} to {fine:?}");
+    }
+}
+
+#[test]
+fn a_steady_flow_through_a_box_is_met_at_order_two() {
+    for (name, arrangement) in ARRANGEMENTS {
+        let of = |n: usize| errors(&wake(n, &[arrangement, &[FIT][..]].concat()));
+        let (coarse, fine) = (of(16), of(32));
+        let velocity = order((16, coarse[0]), (32, fine[0]));
+        assert!(velocity > 1.75 && fine[0] < 2.5e-3, "{name}: order {velocity}, {coarse:?} to {fine:?}");
+        // Along walls the pressure is of first order.
+        assert!(coarse[1] / fine[1] > 1.8 && fine[1] < 2e-2, "{name}: {coarse:?} to {fine:?}");
+    }
+}
+
+#[test]
+fn on_scattered_points_fitted_faces_are_what_makes_the_order_two() {
+    for (name, arrangement) in &ARRANGEMENTS[1..] {
+        let radius = ["method.radius=2.8"];
+        let with = |divergence: &str| errors(&vortices(48, &[arrangement, &radius[..], &[divergence]].concat()))[0];
+        let [plain, fitted] = ["effects.pressure.divergence=faces", FIT].map(with);
+        assert!(plain > 4.0 * fitted, "{name}: {plain} with plain faces, {fitted} with fitted ones");
+    }
+}
+
+#[test]
+fn a_viscosity_a_tenth_too_large_misses_the_vortices() {
+    let case = vortices(32, &FINE);
+    let right = errors(&case)[0];
+    let mut thick = case.clone();
+    thick.effects.viscosity.as_mut().expect("a viscosity").kinematic *= 1.1;
+    let scene = Arc::new(Scene::build(&thick).expect("a scene"));
+    let outcome = simulate(&scene, cpu::double(&scene).expect("an engine").as_mut(), &mut ()).expect("a run");
+    let exact = Exact::of(&case).expect("an exact flow");
+    let FieldError { difference, exact } = FieldError::new(&outcome.snapshot, &exact, Component::Velocity);
+    assert!(difference / exact > 5.0 * right, "{} against {right}", difference / exact);
+}
+
+#[test]
+fn both_pressure_forms_and_both_remaps_follow_the_vortices() {
+    for (changes, most) in [
+        (&["effects.advection.remap=forward", FIT][..], 0.02),
+        (&["effects.pressure.form=collocated", "method.radius=3.1", "method.weight=quadratic"], 0.02),
+        (&["effects.pressure.gradient=adjoint"], 0.06),
+    ] {
+        let [velocity, _] = errors(&vortices(32, &[&["cloud.arrangement=jittered"], changes].concat()));
+        assert!(velocity < most, "{changes:?}: {velocity}");
+    }
+}
+
+/// A fit passes through its own point's value, so that a remap over a short way errs by little: as steps get shorter the error
+/// rises to what the spacing leaves, and no further.
+#[test]
+fn errors_rise_and_level_off_as_steps_get_shorter() {
+    let at = |courant: &str| {
+        let jittered = ["cloud.arrangement=jittered", "effects.pressure.tolerance=1e-8", "time.end=0.25", FIT];
+        errors(&vortices(32, &[&jittered[..], &[courant]].concat()))[0]
+    };
+    let [long, short, shorter] = ["time.courant=0.8", "time.courant=0.04", "time.courant=0.01"].map(at);
+    assert!(short > 1.1 * long, "{short} after short steps, {long} after longer ones");
+    assert!((shorter / short - 1.0).abs() < 0.2, "{shorter} after still shorter ones than {short}");
+}
