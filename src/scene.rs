@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid};
+use crate::cpu::operations::moments;
 use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
@@ -28,6 +29,8 @@ pub struct Constants {
     /// `r_e`, m.
     pub radius: f64,
     pub weight: Weight,
+    /// Degree of the fitted polynomial, 1 to 4.
+    pub order: usize,
     /// Cells of the neighbour search.
     pub grid: Grid,
     /// Width and height of the rectangle, m.
@@ -53,9 +56,9 @@ pub enum SceneError {
     #[error(transparent)]
     Cloud(#[from] CloudError),
     #[error(
-        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point 5"
+        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point {needed}"
     )]
-    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize },
+    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize, needed: usize },
 }
 
 /// Two points nearer than this, in spacings, coincide: no derivative exists between them.
@@ -70,9 +73,9 @@ impl Scene {
     /// The same on points laid out by the caller.
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
         let plan = Plan::new(case);
-        let radius = case.method.radius * cloud.spacing;
+        let radius = case.method.radius() * cloud.spacing;
         let grid = Grid::new(cloud.size, radius);
-        let most = survey(&cloud, radius, case.method.radius)?;
+        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
@@ -83,11 +86,13 @@ impl Scene {
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             cells: grid.count(),
+            coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let constants = Constants {
             radius,
             weight: case.method.weight,
+            order: case.method.order,
             grid,
             size: cloud.size,
             spacing: cloud.spacing,
@@ -205,7 +210,7 @@ impl Scene {
 }
 
 /// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError> {
+fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
     let grid = grid::Grid::new(&cloud.position, cloud.size, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
@@ -219,8 +224,8 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError
                 return Err(CloudError::Coincident { first, second, x: own.x, y: own.y, least }.into());
             }
         }
-        if found < 5 {
-            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found });
+        if found < needed {
+            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found, needed });
         }
         Ok(found)
     };

@@ -75,7 +75,7 @@ pub struct Outcome {
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
     pub iterations: u64,
-    /// Points whose fit was widened, is linear, is the nearest value.
+    /// Points whose fit was widened, is of a lower order, is the nearest value.
     pub ladder: [u64; 3],
     /// Wall-clock time of the setup operations, and of the steps with their reports.
     pub setup: Duration,
@@ -275,8 +275,8 @@ impl Run<'_> {
         if let Data::Index(rungs) = self.engine.read(Buffer::Rung(Points::Standing))? {
             for &rung in rungs[..self.scene.sizes.points].iter().filter(|&&rung| rung > 0) {
                 tally[match rung {
-                    Rung::LINEAR => 1,
                     Rung::NEAREST => 2,
+                    rung if rung > Rung::WIDER.len() as u32 => 1,
                     _ => 0,
                 }] += 1;
             }

@@ -17,6 +17,7 @@ const ALLOWED: &[(&str, &str)] = &[
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
+    ("method.order", "1, 2, 3 or 4"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),

@@ -15,7 +15,7 @@ mod reference;
 mod text;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
-pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_SEED};
+pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
@@ -112,14 +112,16 @@ pub struct Wall {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Method {
-    /// Radius of the neighbourhood, `r_e`, in spacings.
-    pub radius: f64,
+    /// Degree of the polynomial that is fitted, 1 to 4; with 1 there are no second derivatives.
+    pub order: usize,
+    /// Radius of the neighbourhood, `r_e`, in spacings; where absent one that supports the order.
+    pub radius: Option<f64>,
     pub weight: Weight,
 }
 
 impl Default for Method {
     fn default() -> Self {
-        Self { radius: 2.6, weight: Weight::Smooth }
+        Self { order: 2, radius: None, weight: Weight::Smooth }
     }
 }
 

@@ -6,7 +6,6 @@ use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces};
 use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
 use crate::cpu::operations::fits::{self, Fits};
-use crate::cpu::operations::moments::WeightFunction;
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::rows::{self, Lists};
@@ -18,7 +17,7 @@ use crate::engine::{
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
-use crate::with_weight;
+use crate::with_order;
 
 /// Steps between two looks for numbers that are none.
 const WATCH_EVERY: u32 = 10;
@@ -55,32 +54,30 @@ impl<T: Real> CpuEngine<T> {
         Ok(Self { scene, fields, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
-    fn fits<'a, W: WeightFunction>(&'a self, points: Points, weight: W) -> Result<Fits<'a, T, W>, EngineError> {
+    fn fits<const N: usize, const F: usize>(&self, points: Points) -> Result<Fits<'_, T, N, F>, EngineError> {
         Ok(Fits {
             position: self.fields.real(Buffer::Position(points))?,
             support: self.fields.real(Buffer::Support(points))?,
-            neighbours: self.fields.index(Buffer::Neighbours(points))?,
-            count: self.fields.index(Buffer::NeighbourCount(points))?,
-            capacity: self.scene.sizes.capacity,
+            lists: self.lists(points)?,
             factor: self.fields.real(Buffer::Factor(points))?,
-            weight,
+            weight: self.scene.constants.weight,
         })
     }
 
-    fn lists(&self) -> Result<Lists<'_>, EngineError> {
+    fn lists(&self, points: Points) -> Result<Lists<'_>, EngineError> {
         Ok(Lists {
-            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
-            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+            neighbours: self.fields.index(Buffer::Neighbours(points))?,
+            count: self.fields.index(Buffer::NeighbourCount(points))?,
             capacity: self.scene.sizes.capacity,
         })
     }
 
     fn laplacian(&self) -> Result<Laplacian<'_, T>, EngineError> {
-        Ok(Laplacian { lists: self.lists()?, row: self.fields.real(Buffer::LaplacianRow)? })
+        Ok(Laplacian { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::LaplacianRow)? })
     }
 
     fn gradient(&self) -> Result<Gradient<'_, T>, EngineError> {
-        Ok(Gradient { lists: self.lists()?, row: self.fields.real(Buffer::GradientRow)? })
+        Ok(Gradient { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::GradientRow)? })
     }
 
     fn search(&self, points: Points) -> Result<Search<'_, T>, EngineError> {
@@ -147,13 +144,11 @@ impl<T: Real> CpuEngine<T> {
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
                 let mut rung = self.fields.take_index(Buffer::Rung(points))?;
-                with_weight!(constants.weight, weight => fit::factorise(
+                with_order!(constants.order, [N, F, M] => fit::factorise::<T, N, F, M>(
                     self.fields.real(Buffer::Position(points))?,
                     self.fields.real(Buffer::Support(points))?,
-                    self.fields.index(Buffer::Neighbours(points))?,
-                    self.fields.index(Buffer::NeighbourCount(points))?,
-                    sizes.capacity,
-                    weight,
+                    self.lists(points)?,
+                    constants.weight,
                     &mut factor,
                     &mut rung,
                 ));
@@ -166,10 +161,10 @@ impl<T: Real> CpuEngine<T> {
                 let mut support = self.fields.take(Buffer::Support(points))?;
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                with_weight!(constants.weight, weight => fit::widen_support(
+                with_order!(constants.order, [N, F, M] => fit::widen_support::<T, N, F, M>(
                     self.search(points)?,
                     sizes.capacity,
-                    weight,
+                    constants.weight,
                     &mut support,
                     &mut found,
                     &mut count,
@@ -184,14 +179,16 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::AssembleLaplacian => {
                 with_taken!(self.fields, [row = Buffer::LaplacianRow], {
-                    with_weight!(constants.weight, weight =>
-                        rows::assemble_laplacian(self.fits(Points::Standing, weight)?, &mut row));
+                    let standing = Points::Standing;
+                    with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_laplacian(self.fits::<N, F>(standing)?, &mut row));
                 });
             }
             Operation::AssembleGradient => {
                 with_taken!(self.fields, [row = Buffer::GradientRow], {
-                    with_weight!(constants.weight, weight =>
-                        rows::assemble_gradient(self.fits(Points::Standing, weight)?, &mut row));
+                    let standing = Points::Standing;
+                    with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_gradient(self.fits::<N, F>(standing)?, &mut row));
                 });
             }
             _ => {
@@ -222,8 +219,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::FitVelocity(points) => {
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let values = self.fields.real(moving)?;
-                    with_weight!(constants.weight, weight =>
-                        fits::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
+                    with_order!(constants.order, [N, F, M] =>
+                        fits::fit_velocity(self.fits::<N, F>(points)?, values, &mut coefficients));
                 });
             }
             Operation::MovePoints => {
@@ -235,7 +232,7 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::RemapForward => {
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_forward(
+                    with_order!(constants.order, [N, F, M] => remap::remap_forward::<T, N>(
                         self.standing(Buffer::Position)?,
                         self.fields.real(Buffer::Position(Points::Moved))?,
                         self.fields.real(Buffer::Support(Points::Moved))?,
@@ -243,7 +240,7 @@ impl<T: Real> CpuEngine<T> {
                         self.fields.real(Buffer::Coefficients)?,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
             Operation::KeepVelocity => {
@@ -254,7 +251,7 @@ impl<T: Real> CpuEngine<T> {
             _ => {
                 let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_departure(
+                    with_order!(constants.order, [N, F, M] => remap::remap_departure::<T, N>(
                         self.standing(Buffer::Position)?,
                         self.standing(Buffer::Support)?,
                         remap::Around {
@@ -268,7 +265,7 @@ impl<T: Real> CpuEngine<T> {
                         dt,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
         }
@@ -397,7 +394,7 @@ impl<T: Real> CpuEngine<T> {
     }
 
     fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
-        Ok(collocated::Collocated { lists: self.lists()?, row: self.fields.real(Buffer::MatrixRow)? })
+        Ok(collocated::Collocated { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::MatrixRow)? })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -579,8 +576,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
-            with_weight!(scene.constants.weight, weight => fits::fitted_divergence(
-                self.fits(Points::Standing, weight)?, velocity, scene.sizes.interior, &mut divergence));
+            with_order!(scene.constants.order, [N, F, M] => fits::fitted_divergence(
+                self.fits::<N, F>(Points::Standing)?, velocity, scene.sizes.interior, &mut divergence));
             measurement.divergence = measure::rms(&divergence, points);
         }
         self.fields.put(Buffer::Reported, reported);

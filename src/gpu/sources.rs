@@ -1,6 +1,7 @@
 //! The WGSL files: which stages an operation has, and what `#import` brings in.
 
 use super::layout::Extent;
+use super::unrolled;
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
@@ -173,18 +174,16 @@ pub(super) fn expand(stage: &Stage, scene: &Scene) -> Result<String, EngineError
     Ok(text)
 }
 
-fn append(
-    source: &'static str,
-    scene: &Scene,
-    seen: &mut Vec<&'static str>,
-    text: &mut String,
-) -> Result<(), &'static str> {
+fn append(source: &str, scene: &Scene, seen: &mut Vec<String>, text: &mut String) -> Result<(), String> {
     for line in source.lines() {
         match line.strip_prefix("#import ") {
-            Some(name) if seen.contains(&name) => {}
+            Some(name) if seen.iter().any(|other| other == name) => {}
             Some(name) => {
-                seen.push(name);
-                append(library(name, scene).ok_or(name)?, scene, seen, text)?;
+                seen.push(name.to_owned());
+                match unrolled::library(name, scene.constants.order) {
+                    Some(unrolled) => text.push_str(&unrolled),
+                    None => append(library(name, scene).ok_or(name)?, scene, seen, text)?,
+                }
             }
             None => {
                 text.push_str(line);

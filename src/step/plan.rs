@@ -16,6 +16,8 @@ pub struct Sizes {
     pub face_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
+    /// Coefficients of a fit.
+    pub coefficients: usize,
 }
 
 /// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.

@@ -190,7 +190,7 @@ fn a_planted_difference_is_reported_with_its_operation_its_array_and_its_point()
                 let by = 3.0 * allowed(&scene, buffer, &results);
                 match gpu.get_mut(&buffer).expect("an array") {
                     Data::Real(values) => values[entry] += by.max(f64::from(f32::MIN_POSITIVE)),
-                    Data::Index(values) => values[entry] += 1,
+                    Data::Index(values) => values[entry] = values[entry].wrapping_add(1),
                 }
                 let found: Vec<_> = done.differences().iter().map(|d| (d.operation, d.buffer, d.point)).collect();
                 assert_eq!(found, [(done.operation, buffer, point)], "{name}, by {by:e}");

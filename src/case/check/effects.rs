@@ -13,12 +13,24 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         return Err(Fault::reason("effects", reason));
     }
     if let Some(viscosity) = &case.effects.viscosity {
+        second_derivatives(case, "effects.viscosity")?;
         require(viscosity.kinematic > 0.0, "effects.viscosity.kinematic")?;
     }
     if let Some(pressure) = &case.effects.pressure {
         check_pressure(pressure)?;
+        if pressure.form == PressureForm::Collocated {
+            second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
+        }
     }
     check_remap(case)
+}
+
+/// A fit of order 1 has none.
+fn second_derivatives(case: &Case, needs: &str) -> Result<(), Fault> {
+    if case.method.order > 1 {
+        return Ok(());
+    }
+    Err(Fault::reason("method.order", format!("must be 2, 3 or 4 with {needs}, which needs second derivatives")))
 }
 
 fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
