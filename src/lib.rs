@@ -7,6 +7,7 @@ pub mod cpu;
 pub mod direct;
 pub mod engine;
 pub mod gpu;
+pub mod known;
 pub mod measure;
 pub mod output;
 pub mod run;

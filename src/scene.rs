@@ -3,12 +3,14 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid};
+use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
 use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
+use crate::known::Known;
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
 
 /// Everything about a run that does not change while it runs, in f64, on the host.
@@ -37,6 +39,8 @@ pub struct Constants {
     pub size: DVec2,
     /// `l0`, m.
     pub spacing: f64,
+    /// What the integral form divides by.
+    pub lattice: Lattice,
     /// kg/m^3
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
@@ -96,6 +100,7 @@ impl Scene {
             grid,
             size: cloud.size,
             spacing: cloud.spacing,
+            lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             tolerance: pressure.tolerance,
@@ -149,9 +154,27 @@ impl Scene {
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
         }
+        data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
         data
+    }
+
+    /// A known field, or the source that makes the pressure equation give it.
+    fn known(&self, volume: &[f64]) -> Option<(Buffer, Data)> {
+        let (known, cloud) = (Known::of(&self.case)?, &self.cloud);
+        if !matches!(self.case.problem(), Problem::Poisson(_)) {
+            let values: Vec<f64> = cloud.position.iter().map(|&place| known.value(place)).collect();
+            return Some((Buffer::Field, self.scalars(&values, 0.0)));
+        }
+        // No slope across walls: nothing stands in their rows.
+        let source = |point: usize| match self.cells {
+            Some(_) => -volume[point] * known.laplacian(cloud.position[point]),
+            None if point < cloud.interior => known.laplacian(cloud.position[point]),
+            None => 0.0,
+        };
+        let source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        Some((Buffer::Source, self.scalars(&source, 0.0)))
     }
 
     fn faces(&self, cells: &Cells) -> Vec<(Buffer, Data)> {

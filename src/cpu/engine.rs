@@ -6,6 +6,7 @@ use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces};
 use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
 use crate::cpu::operations::fits::{self, Fits};
+use crate::cpu::operations::integral::{self, Means};
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::rows::{self, Lists};
@@ -50,7 +51,7 @@ impl<T: Real> CpuEngine<T> {
         for (buffer, data) in scene.initial() {
             fields.write(buffer, &data)?;
         }
-        let per_volume = reciprocals(fields.real(Buffer::Volume)?);
+        let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         Ok(Self { scene, fields, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
@@ -78,6 +79,16 @@ impl<T: Real> CpuEngine<T> {
 
     fn gradient(&self) -> Result<Gradient<'_, T>, EngineError> {
         Ok(Gradient { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::GradientRow)? })
+    }
+
+    fn means(&self) -> Result<Means<'_, T>, EngineError> {
+        let points = Points::Standing;
+        Ok(Means {
+            position: self.fields.real(Buffer::Position(points))?,
+            support: self.fields.real(Buffer::Support(points))?,
+            lists: self.lists(points)?,
+            lattice: self.scene.constants.lattice,
+        })
     }
 
     fn search(&self, points: Points) -> Result<Search<'_, T>, EngineError> {
@@ -191,6 +202,16 @@ impl<T: Real> CpuEngine<T> {
                         rows::assemble_gradient(self.fits::<N, F>(standing)?, &mut row));
                 });
             }
+            Operation::AssembleIntegralLaplacian => {
+                with_taken!(self.fields, [row = Buffer::LaplacianRow], {
+                    integral::assemble_integral_laplacian(self.means()?, &mut row);
+                });
+            }
+            Operation::AssembleIntegralGradient => {
+                with_taken!(self.fields, [row = Buffer::GradientRow], {
+                    integral::assemble_integral_gradient(self.means()?, &mut row);
+                });
+            }
             _ => {
                 with_taken!(
                     self.fields,
@@ -205,6 +226,28 @@ impl<T: Real> CpuEngine<T> {
                         &mut diagonal,
                     )
                 );
+            }
+        }
+        Ok(())
+    }
+
+    /// What is done to a known field.
+    fn field(&mut self, operation: Operation) -> Result<(), EngineError> {
+        match operation {
+            Operation::Average => {
+                with_taken!(self.fields, [out = Buffer::FieldAverage], {
+                    integral::average(self.means()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+            Operation::Gradient => {
+                with_taken!(self.fields, [out = Buffer::FieldGradient], {
+                    derivative::gradient(self.gradient()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+            _ => {
+                with_taken!(self.fields, [out = Buffer::FieldLaplacian], {
+                    derivative::laplacian(self.laplacian()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
             }
         }
         Ok(())
@@ -516,6 +559,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::WidenSupport(_)
             | Operation::AssembleLaplacian
             | Operation::AssembleGradient
+            | Operation::AssembleIntegralLaplacian
+            | Operation::AssembleIntegralGradient
             | Operation::AssembleCollocated => self.geometry(operation),
             Operation::FitVelocity(_)
             | Operation::RemapDeparture
@@ -530,6 +575,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
+            Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence
             | Operation::CollocatedSource
             | Operation::ConjugateGradient

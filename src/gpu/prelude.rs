@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
+use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
@@ -113,6 +114,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     let real: &[(&str, f64)] = &[
         ("CELLS_PER_METRE", constants.grid.per_metre),
         ("RADIUS", constants.radius),
+        ("LATTICE_DENSITY", constants.lattice.density),
+        ("LATTICE_SPREAD", constants.lattice.spread),
+        ("DIMENSIONS", DIMENSIONS),
         ("WIDTH", constants.size.x),
         ("HEIGHT", constants.size.y),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),

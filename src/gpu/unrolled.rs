@@ -36,6 +36,11 @@ impl Text {
     }
 }
 
+/// Degree and power of y.
+fn monomial(k: usize) -> (usize, usize) {
+    MONOMIALS[k]
+}
+
 fn each(letter: char, count: usize) -> impl Iterator<Item = String> {
     (0..count).map(move |k| format!("{letter}{k}"))
 }
@@ -46,8 +51,7 @@ fn monomials(text: &mut Text, order: usize) {
     text.structure("Monomials", each('b', count), "real");
     text.line("fn monomials(d: vector) -> Monomials {");
     text.line("    let b0 = d.x;\n    let b1 = d.y;");
-    for k in 2..count {
-        let (degree, power) = MONOMIALS[k];
+    for (k, (degree, power)) in MONOMIALS.into_iter().enumerate().take(count).skip(2) {
         let (first, previous) = (start(degree), start(degree - 1));
         if power < degree {
             text.line(format!("    let b{k} = d.x * b{};", previous + k - first));
@@ -115,7 +119,7 @@ fn matrix(text: &mut Text, order: usize) {
     text.line("fn factor_of(m: Moments) -> Factor {\n    var f: Factor;");
     for row in 0..count {
         for column in 0..=row {
-            let ((degree, power), (other, its)) = (MONOMIALS[row], MONOMIALS[column]);
+            let ((degree, power), (other, its)) = (monomial(row), monomial(column));
             let moment = format!("m.m{}", start(degree + other) - start(2) + power + its);
             let known: String =
                 (0..column).map(|k| format!(" - f.l{} * f.l{}", entries(row) + k, entries(column) + k)).collect();
@@ -143,7 +147,7 @@ fn matrix(text: &mut Text, order: usize) {
     text.line("    return least;\n}");
     text.line("fn store_factor(i: u32, f: Factor, order: u32) {\n    let k = at(i, 0u, FACTOR);");
     for row in 0..count {
-        let degree = MONOMIALS[row].0;
+        let (degree, _) = monomial(row);
         for place in entries(row)..entries(row + 1) {
             text.line(format!("    factor[k + {place}u * BLOCK] = select(real(0.0), f.l{place}, order >= {degree}u);"));
         }

@@ -83,6 +83,12 @@ pub enum Buffer {
     Preconditioned,
     /// `Projected` at the last report, m/s, to measure the rate of change from; interleaved.
     Reported,
+    /// A known field, no unit.
+    Field,
+    /// Its mean over neighbours, no unit; its gradient, 1/m, interleaved; its Laplacian, 1/m^2.
+    FieldAverage,
+    FieldGradient,
+    FieldLaplacian,
 }
 
 /// What an array's entries are.
@@ -132,6 +138,10 @@ impl Buffer {
             Buffer::StabilisedProduct => ("stabilised_product", None),
             Buffer::Preconditioned => ("preconditioned", None),
             Buffer::Reported => ("reported", None),
+            Buffer::Field => ("field", None),
+            Buffer::FieldAverage => ("field_average", None),
+            Buffer::FieldGradient => ("field_gradient", None),
+            Buffer::FieldLaplacian => ("field_laplacian", None),
         };
         match points {
             Some(Points::Moved) => format!("moved_{name}"),
@@ -163,7 +173,8 @@ impl Buffer {
             | Buffer::Projected
             | Buffer::Reflected
             | Buffer::PressureKick
-            | Buffer::Reported => 2,
+            | Buffer::Reported
+            | Buffer::FieldGradient => 2,
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,

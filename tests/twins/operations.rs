@@ -56,6 +56,8 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::Factorise(_)
         | Operation::AssembleLaplacian
         | Operation::AssembleGradient
+        | Operation::AssembleIntegralLaplacian
+        | Operation::AssembleIntegralGradient
         | Operation::AssembleCollocated
         | Operation::FitVelocity(_)
         | Operation::MovePoints
@@ -63,7 +65,10 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::Predict
         | Operation::Divergence
         | Operation::CollocatedSource
-        | Operation::DirectSolve => operation.writes(),
+        | Operation::DirectSolve
+        | Operation::Average
+        | Operation::Gradient
+        | Operation::Laplacian => operation.writes(),
         _ => vec![],
     }
 }
@@ -93,6 +98,9 @@ fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
         }
     };
     through(&scene.plan.setup, engines);
+    if !scene.plan.flows {
+        return through(&scene.plan.kick, engines);
+    }
     if scene.cloud.normal.is_empty() {
         stir(scene, engines.double.as_mut());
     }

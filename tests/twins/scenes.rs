@@ -7,7 +7,7 @@ use glam::DVec2;
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
-use crate::cases::cavity_of;
+use crate::cases::{cavity_of, problem};
 
 /// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
 const ACROSS: usize = 16;
@@ -75,15 +75,26 @@ const CHANGES: [(&str, &[&str]); 10] = [
     ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
 ];
 
+/// Problems without time.
+const PROBLEMS: [(&str, &[&str]); 3] = [
+    ("derivatives, interpolation", &["derivatives.field=waves"]),
+    ("derivatives, integral", &["derivatives.field=waves", "method.operators=integral"]),
+    ("derivatives, order 4", &["derivatives.field=waves", "method.order=4"]),
+];
+
 /// Every scene, with its name.
 pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     let mut scenes: Vec<_> = CHANGES.iter().map(|&(name, changes)| (name, Arc::new(of(changes)))).collect();
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
     scenes.push(("no advection", Arc::new(Scene::build(&still).expect("a scene"))));
-    let mut linear = cavity_of(ACROSS, &["cloud.arrangement=jittered", "method.order=1", TIGHT]);
+    let mut linear = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     linear.effects.viscosity = None;
+    (linear.method.order, linear.method.radius) = (1, Some(2.1));
     scenes.push(("no viscosity, order 1", Arc::new(Scene::build(&linear).expect("a scene"))));
+    for (name, changes) in PROBLEMS {
+        scenes.push((name, Arc::new(Scene::build(&problem(ACROSS, changes)).expect("a scene"))));
+    }
     scenes.push(("rows of points", Arc::new(ladder(2))));
     scenes.push(("rows of points, order 4", Arc::new(ladder(4))));
     // The sums over workgroups take more than one round, and more than one tile of cells.

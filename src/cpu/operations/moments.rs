@@ -130,8 +130,8 @@ impl<P: Copy, const M: usize> Moments<P, M> {
         for degree in 2..=2 * LARGEST_ORDER {
             let first = start(degree) - start(2);
             if first < M {
-                for k in 0..degree {
-                    self.0[first + k] = terms[k].mul_add(x, self.0[first + k]);
+                for (sum, term) in self.0[first..].iter_mut().zip(&terms[..degree]) {
+                    *sum = term.mul_add(x, *sum);
                 }
                 self.0[first + degree] = terms[degree - 1].mul_add(y, self.0[first + degree]);
                 if first + degree + 1 < M {
@@ -148,11 +148,10 @@ impl<P: Copy, const M: usize> Moments<P, M> {
     #[inline(always)]
     pub fn matrix<const F: usize>(&self) -> [P; F] {
         let mut matrix = [self.0[0]; F];
-        for row in 0..MOST {
-            for column in 0..=row {
+        for (row, (degree, power)) in MONOMIALS.into_iter().enumerate() {
+            for (column, (other, its)) in MONOMIALS[..=row].iter().enumerate() {
                 let place = entries(row) + column;
                 if place < F {
-                    let ((degree, power), (other, its)) = (MONOMIALS[row], MONOMIALS[column]);
                     matrix[place] = self.0[start(degree + other) - start(2) + power + its];
                 }
             }

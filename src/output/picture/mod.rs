@@ -70,6 +70,7 @@ mod tests {
             velocity: cloud.iter().map(|x| DVec2::new(x.y - 0.5, 0.5 - x.x)).collect(),
             pressure: cloud.iter().map(|x| x.distance(DVec2::splat(0.5)) - 0.3).collect(),
             position: cloud.into_iter().map(|x| x * size).collect(),
+            derivatives: None,
         };
         (case, snapshot)
     }
