@@ -58,9 +58,10 @@ fn run(name: &str, cells: u32, keys: &[&str]) -> Result<Row, Box<dyn Error>> {
     Ok(Row { steps: outcome.steps, velocity: error(Component::Velocity), pressure: error(Component::P) })
 }
 
-const ARRANGEMENTS: [(&str, &[&str]); 3] = [
-    ("regular", &["cloud.arrangement=regular"]),
-    ("jittered", &["cloud.arrangement=jittered"]),
+const ARRANGEMENTS: [(&str, &[&str]); 4] = [
+    ("regular, plain faces", &["cloud.arrangement=regular", "effects.pressure.divergence=faces"]),
+    ("jittered, plain faces", &["effects.pressure.divergence=faces"]),
+    ("jittered", &[]),
     ("random", &["cloud.arrangement=random", "method.radius=2.8"]),
 ];
 

@@ -15,13 +15,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let here = position[i];
     let per = real(1.0) / support[i];
-    let c = solve(i, Coefficients(vector(per, 0.0), vector(0.0, per), vector(), vector(), vector()));
+    var unit = Coefficients();
+    unit.a0 = vector(per, 0.0);
+    unit.a1 = vector(0.0, per);
+    let c = solve(i, unit);
     let first = at(i, 0u, CAPACITY);
     let along_x = at(i, 0u, 2u * CAPACITY);
     let along_y = at(i, CAPACITY, 2u * CAPACITY);
     let end = min(neighbour_count[i], CAPACITY) * BLOCK;
     for (var slot = 0u; slot < end; slot += BLOCK) {
-        let factors = factor_of(neighbours[first + slot], here, per, c);
+        let factors = row_factor(neighbours[first + slot], here, per, c);
         gradient_row[along_x + slot] = factors.x;
         gradient_row[along_y + slot] = factors.y;
     }

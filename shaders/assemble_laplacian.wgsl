@@ -15,11 +15,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let here = position[i];
     let per = real(1.0) / support[i];
-    let second = real(2.0) * per * per;
-    let c = solve(i, Coefficients(0.0, 0.0, second, 0.0, second));
+    var unit = Coefficients();
+    unit.a2 = real(2.0) * per * per;
+    unit.a4 = unit.a2;
+    let c = solve(i, unit);
     let first = at(i, 0u, CAPACITY);
     let last = first + min(neighbour_count[i], CAPACITY) * BLOCK;
     for (var slot = first; slot < last; slot += BLOCK) {
-        laplacian_row[slot] = factor_of(neighbours[slot], here, per, c);
+        laplacian_row[slot] = row_factor(neighbours[slot], here, per, c);
     }
 }

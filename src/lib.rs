@@ -3,11 +3,13 @@
 pub mod case;
 pub mod cli;
 pub mod cloud;
+pub mod comparison;
 pub mod cpu;
 pub mod direct;
 pub mod engine;
 pub mod exact;
 pub mod gpu;
+pub mod known;
 pub mod measure;
 pub mod output;
 pub mod run;

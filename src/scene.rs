@@ -3,13 +3,16 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid, shortest};
+use crate::cpu::operations::integral::Lattice;
+use crate::cpu::operations::moments;
 use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
 use crate::exact::Exact;
+use crate::known::Known;
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
 
 /// Everything about a run that does not change while it runs, in f64, on the host.
@@ -34,6 +37,8 @@ pub struct Constants {
     /// `r_e`, m.
     pub radius: f64,
     pub weight: Weight,
+    /// Degree of the fitted polynomial, 1 to 4.
+    pub order: usize,
     /// Cells of the neighbour search.
     pub grid: Grid,
     /// Width and height of the rectangle, m.
@@ -42,6 +47,8 @@ pub struct Constants {
     pub period: DVec2,
     /// `l0`, m.
     pub spacing: f64,
+    /// What the integral form divides by.
+    pub lattice: Lattice,
     /// kg/m^3
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
@@ -61,9 +68,9 @@ pub enum SceneError {
     #[error(transparent)]
     Cloud(#[from] CloudError),
     #[error(
-        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point 5"
+        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point {needed}"
     )]
-    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize },
+    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize, needed: usize },
 }
 
 /// Two points nearer than this, in spacings, coincide: no derivative exists between them.
@@ -78,9 +85,9 @@ impl Scene {
     /// The same on points laid out by the caller.
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
         let plan = Plan::new(case);
-        let radius = case.method.radius * cloud.spacing;
+        let radius = case.method.radius() * cloud.spacing;
         let grid = Grid::new(cloud.size, cloud.period, radius);
-        let most = survey(&cloud, radius, case.method.radius)?;
+        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
@@ -94,15 +101,18 @@ impl Scene {
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
             cells: grid.count(),
+            coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let constants = Constants {
             radius,
             weight: case.method.weight,
+            order: case.method.order,
             grid,
             size: cloud.size,
             period: cloud.period,
             spacing: cloud.spacing,
+            lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             tolerance: pressure.tolerance,
@@ -176,9 +186,27 @@ impl Scene {
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
         }
+        data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
         data
+    }
+
+    /// A known field, or the source that makes the pressure equation give it.
+    fn known(&self, volume: &[f64]) -> Option<(Buffer, Data)> {
+        let (known, cloud) = (Known::of(&self.case)?, &self.cloud);
+        if !matches!(self.case.problem(), Problem::Poisson(_)) {
+            let values: Vec<f64> = cloud.position.iter().map(|&place| known.value(place)).collect();
+            return Some((Buffer::Field, self.scalars(&values, 0.0)));
+        }
+        // No slope across walls: nothing stands in their rows.
+        let source = |point: usize| match self.cells {
+            Some(_) => -volume[point] * known.laplacian(cloud.position[point]),
+            None if point < cloud.interior => known.laplacian(cloud.position[point]),
+            None => 0.0,
+        };
+        let source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        Some((Buffer::Source, self.scalars(&source, 0.0)))
     }
 
     fn faces(&self, cells: &Cells) -> Vec<(Buffer, Data)> {
@@ -211,9 +239,8 @@ impl Scene {
         let slots = self.sizes.flux_capacity;
         let (mut points, mut row) = (vec![0; self.padded() * slots], vec![0.0; 2 * self.padded() * slots]);
         let mut count = vec![0; self.padded()];
-        let at = |point: usize, slot: usize, slots: usize| {
-            (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK
-        };
+        let at =
+            |point: usize, slot: usize, slots: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
         for point in 0..self.padded() {
             let own = point.min(self.sizes.points - 1);
             (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);
@@ -263,7 +290,7 @@ impl Scene {
 }
 
 /// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError> {
+fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
     let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
@@ -277,8 +304,8 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError
                 return Err(CloudError::Coincident { first, second, x: own.x, y: own.y, least }.into());
             }
         }
-        if found < 5 {
-            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found });
+        if found < needed {
+            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found, needed });
         }
         Ok(found)
     };

@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::Splitting;
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
+use crate::known::Known;
 use crate::scene::Scene;
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
 
 /// One row of `diagnostics.csv`.
@@ -76,7 +77,7 @@ pub struct Outcome {
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
     pub iterations: u64,
-    /// Points whose fit was widened, is linear, is the nearest value.
+    /// Points whose fit was widened, is of a lower order, is the nearest value.
     pub ladder: [u64; 3],
     /// Wall-clock time of the setup operations, and of the steps with their reports.
     pub setup: Duration,
@@ -133,6 +134,9 @@ impl Run<'_> {
         self.limit = self.viscous_limit()?;
         let ladder = self.ladder()?;
         let setup = started.elapsed();
+        if !self.scene.plan.flows {
+            return self.once(ladder, setup);
+        }
 
         let started = Instant::now();
         let time = &self.scene.case.time;
@@ -209,6 +213,53 @@ impl Run<'_> {
         Ok(Outcome { stop, steps: step, snapshot: good, fallbacks, iterations, ladder, setup, stepping, warnings })
     }
 
+    /// A problem without time: its operations, once.
+    fn once(mut self, ladder: [u64; 3], setup: Duration) -> Result<Outcome, SimulationError> {
+        let started = Instant::now();
+        let clock = self.unit_clock();
+        for &operation in &self.scene.plan.kick {
+            self.engine.apply(operation, &clock)?;
+        }
+        let stepping = started.elapsed();
+        let iterations = u64::from(self.engine.solve_info().iterations);
+        let snapshot = match self.scene.plan.form {
+            Some(_) => self.snapshot(0.0)?,
+            None => self.derivatives()?,
+        };
+        let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
+        let warnings = self.warnings;
+        Ok(Outcome { stop: Stop::End, steps: 0, snapshot, fallbacks, iterations, ladder, setup, stepping, warnings })
+    }
+
+    /// The clock by which the tolerance of a pressure solve is relative to the root mean square of its source.
+    fn unit_clock(&self) -> Clock {
+        let Some(known) = Known::of(&self.scene.case) else { return self.scene.clock(1.0) };
+        let cloud = &self.scene.cloud;
+        let square: f64 = cloud.position.iter().map(|&place| known.laplacian(place).powi(2)).sum();
+        let rms = (square / cloud.len() as f64).sqrt();
+        self.scene.clock((self.scene.constants.density / rms).sqrt())
+    }
+
+    /// What the operators made of a known field.
+    fn derivatives(&mut self) -> Result<Snapshot, EngineError> {
+        let points = self.scene.sizes.points;
+        let mut read = |buffer: Buffer| match self.engine.read(buffer) {
+            Ok(Data::Real(values)) => Ok(values),
+            Ok(Data::Index(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
+            Err(error) => Err(error),
+        };
+        let mut value = read(Buffer::FieldAverage)?;
+        if value.is_empty() {
+            value = read(Buffer::Field)?;
+        }
+        let mut laplacian = read(Buffer::FieldLaplacian)?;
+        let gradient = read(Buffer::FieldGradient)?.chunks_exact(2).take(points).map(DVec2::from_slice).collect();
+        value.truncate(points);
+        laplacian.truncate(points);
+        let derivatives = Some(Derivatives { value, gradient, laplacian });
+        Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
+    }
+
     /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.
     fn step(&mut self, speed: f64, now: f64) -> Result<f64, SimulationError> {
         let time = &self.scene.case.time;
@@ -254,14 +305,18 @@ impl Run<'_> {
         if self.scene.plan.splitting == Splitting::Projection || (ratio - 1.0).abs() < SAME_STEP {
             return Ok(());
         }
-        let [middle, reflected, kick] = [Buffer::Projected, Buffer::Reflected, Buffer::PressureKick];
+        let [middle, reflected] = [Buffer::Projected, Buffer::Reflected];
         if let (Data::Real(middle), Data::Real(mut end)) = (self.engine.read(middle)?, self.engine.read(reflected)?) {
             end.iter_mut().zip(middle).for_each(|(end, middle)| *end = middle + ratio * (*end - middle));
             self.engine.write(reflected, &Data::Real(end))?;
         }
-        if let Data::Real(mut mean) = self.engine.read(kick)? {
-            mean.iter_mut().for_each(|mean| *mean *= ratio);
-            self.engine.write(kick, &Data::Real(mean))?;
+        self.scale_pressure_kick(ratio)
+    }
+
+    fn scale_pressure_kick(&mut self, factor: f64) -> Result<(), EngineError> {
+        if let Data::Real(mut mean) = self.engine.read(Buffer::PressureKick)? {
+            mean.iter_mut().for_each(|mean| *mean *= factor);
+            self.engine.write(Buffer::PressureKick, &Data::Real(mean))?;
         }
         Ok(())
     }
@@ -298,11 +353,14 @@ impl Run<'_> {
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
         let mut tally = [0; 3];
-        if let Data::Index(rungs) = self.engine.read(Buffer::Rung(Points::Standing))? {
+        let rung = Buffer::Rung(Points::Standing);
+        if self.scene.plan.buffers().contains(&rung)
+            && let Data::Index(rungs) = self.engine.read(rung)?
+        {
             for &rung in rungs[..self.scene.sizes.points].iter().filter(|&&rung| rung > 0) {
                 tally[match rung {
-                    Rung::LINEAR => 1,
                     Rung::NEAREST => 2,
+                    rung if rung > Rung::WIDER.len() as u32 => 1,
                     _ => 0,
                 }] += 1;
             }
@@ -313,8 +371,10 @@ impl Run<'_> {
     /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
     fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
         let points = self.scene.sizes.points;
-        let mut velocity = Vec::new();
-        if let Data::Real(values) = self.engine.read(Buffer::Projected)? {
+        let mut velocity = vec![DVec2::ZERO; points];
+        if self.scene.plan.flows
+            && let Data::Real(values) = self.engine.read(Buffer::Projected)?
+        {
             velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
         }
         let mut pressure = vec![0.0; points];
@@ -324,7 +384,7 @@ impl Run<'_> {
             let mean = values[..points].iter().sum::<f64>() / points as f64;
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure })
+        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
     }
 }
 

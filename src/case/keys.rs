@@ -18,6 +18,8 @@ const ALLOWED: &[(&str, &str)] = &[
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
+    ("method.operators", r#""interpolation" or "integral""#),
+    ("method.order", "1, 2, 3 or 4"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
@@ -36,6 +38,10 @@ const ALLOWED: &[(&str, &str)] = &[
     ("time.splitting", r#""reflection" or "projection""#),
     ("exact", "a table with the key solution"),
     ("exact.solution", r#""taylor_green" or "kovasznay""#),
+    ("derivatives", "a table with the key field"),
+    ("derivatives.field", r#""waves" or "cosines""#),
+    ("poisson", "a table with the key field"),
+    ("poisson.field", r#""waves" or "cosines""#),
     ("output.report_every", "a whole number from 1 to 4294967295"),
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),
@@ -109,7 +115,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 12] = [
+        let tables: [(&str, &[&str]); 14] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("fluid", fields::<Fluid>()),
@@ -120,6 +126,8 @@ mod tests {
             ("effects.advection", fields::<Advection>()),
             ("time", fields::<Time>()),
             ("exact", fields::<Exact>()),
+            ("derivatives", fields::<KnownField>()),
+            ("poisson", fields::<KnownField>()),
             ("output", fields::<Output>()),
             ("expect.*", fields::<Expectation>()),
         ];
@@ -141,12 +149,15 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 10] = [
+        let keys: [(&str, &[&str]); 13] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
             ("cloud.arrangement", words::<Arrangement>()),
+            ("method.operators", words::<Operators>()),
             ("method.weight", words::<Weight>()),
+            ("derivatives.field", words::<Field>()),
+            ("poisson.field", words::<Field>()),
             ("effects.pressure.form", words::<PressureForm>()),
             ("effects.pressure.gradient", words::<Gradient>()),
             ("effects.pressure.solver", words::<Solver>()),

@@ -11,11 +11,7 @@ use crate::case::{Arrangement, Cloud};
 /// Throws per wanted point after which random placement gives up.
 const THROWS_PER_POINT: usize = 400;
 
-pub(super) fn interior(
-    cloud: &Cloud,
-    lattice: &Lattice,
-    boundary: &[DVec2],
-) -> Result<Vec<DVec2>, CloudError> {
+pub(super) fn interior(cloud: &Cloud, lattice: &Lattice, boundary: &[DVec2]) -> Result<Vec<DVec2>, CloudError> {
     let mut random = Uniform(Xoshiro256PlusPlus::seed_from_u64(cloud.seed()));
     match cloud.arrangement {
         Arrangement::Regular => Ok(places(lattice).collect()),
@@ -23,9 +19,7 @@ pub(super) fn interior(
             let reach = cloud.jitter() * cloud.spacing;
             Ok(places(lattice).map(|place| place + reach * random.in_square()).collect())
         }
-        Arrangement::Random => {
-            random_points(cloud.minimum_distance(), cloud.spacing, lattice, boundary, &mut random)
-        }
+        Arrangement::Random => random_points(cloud.minimum_distance(), cloud.spacing, lattice, boundary, &mut random),
     }
 }
 
@@ -79,9 +73,10 @@ fn random_points(
             })
         };
         let crowded = near(1).any(|row| {
-            near(0).map(|column| grid[row * squares.x + column]).filter(|&other| other != EMPTY).any(|other| {
-                shortest(placed[other as usize] - place, period).length_squared() < least * least
-            })
+            near(0)
+                .map(|column| grid[row * squares.x + column])
+                .filter(|&other| other != EMPTY)
+                .any(|other| shortest(placed[other as usize] - place, period).length_squared() < least * least)
         });
         if !crowded {
             grid[at.y * squares.x + at.x] = placed.len() as u32;

@@ -61,7 +61,8 @@ impl Cloud {
         let interior = position.len();
         position.extend(boundary);
         let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
-        let cloud = Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size, period };
+        let cloud =
+            Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size, period };
         Ok(cloud)
     }
 

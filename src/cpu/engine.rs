@@ -6,7 +6,7 @@ use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces, Fluxes};
 use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
 use crate::cpu::operations::fits::{self, Fits};
-use crate::cpu::operations::moments::WeightFunction;
+use crate::cpu::operations::integral::{self, Means};
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::rows::{self, Lists};
@@ -19,7 +19,7 @@ use crate::engine::{
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
-use crate::{with_space, with_weight};
+use crate::{with_order, with_space};
 
 /// Steps between two looks for numbers that are none.
 const WATCH_EVERY: u32 = 10;
@@ -54,43 +54,51 @@ impl<T: Real> CpuEngine<T> {
         for (buffer, data) in scene.initial() {
             fields.write(buffer, &data)?;
         }
-        let per_volume = reciprocals(fields.real(Buffer::Volume)?);
+        let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
         Ok(Self { scene, fields, domain, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
     }
 
-    fn fits<'a, W: WeightFunction, S: Space<T>>(
-        &'a self,
+    fn fits<S: Space<T>, const N: usize, const F: usize>(
+        &self,
         points: Points,
-        weight: W,
         space: S,
-    ) -> Result<Fits<'a, T, W, S>, EngineError> {
+    ) -> Result<Fits<'_, T, S, N, F>, EngineError> {
         Ok(Fits {
             position: self.fields.real(Buffer::Position(points))?,
             support: self.fields.real(Buffer::Support(points))?,
-            neighbours: self.fields.index(Buffer::Neighbours(points))?,
-            count: self.fields.index(Buffer::NeighbourCount(points))?,
-            capacity: self.scene.sizes.capacity,
+            lists: self.lists(points)?,
             factor: self.fields.real(Buffer::Factor(points))?,
-            weight,
+            weight: self.scene.constants.weight,
             space,
         })
     }
 
-    fn lists(&self) -> Result<Lists<'_>, EngineError> {
+    fn lists(&self, points: Points) -> Result<Lists<'_>, EngineError> {
         Ok(Lists {
-            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
-            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
+            neighbours: self.fields.index(Buffer::Neighbours(points))?,
+            count: self.fields.index(Buffer::NeighbourCount(points))?,
             capacity: self.scene.sizes.capacity,
         })
     }
 
     fn laplacian(&self) -> Result<Laplacian<'_, T>, EngineError> {
-        Ok(Laplacian { lists: self.lists()?, row: self.fields.real(Buffer::LaplacianRow)? })
+        Ok(Laplacian { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::LaplacianRow)? })
     }
 
     fn gradient(&self) -> Result<Gradient<'_, T>, EngineError> {
-        Ok(Gradient { lists: self.lists()?, row: self.fields.real(Buffer::GradientRow)? })
+        Ok(Gradient { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::GradientRow)? })
+    }
+
+    fn means<S: Space<T>>(&self, space: S) -> Result<Means<'_, T, S>, EngineError> {
+        let points = Points::Standing;
+        Ok(Means {
+            position: self.fields.real(Buffer::Position(points))?,
+            support: self.fields.real(Buffer::Support(points))?,
+            lists: self.lists(points)?,
+            lattice: self.scene.constants.lattice,
+            space,
+        })
     }
 
     fn search<S: Space<T>>(&self, points: Points, space: S) -> Result<Search<'_, T, S>, EngineError> {
@@ -167,14 +175,12 @@ impl<T: Real> CpuEngine<T> {
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
                 let mut rung = self.fields.take_index(Buffer::Rung(points))?;
-                with_weight!(constants.weight, weight => with_space!(self.domain, space => fit::factorise(
+                with_space!(self.domain, space => with_order!(constants.order, [N, F, M] => fit::factorise::<T, _, N, F, M>(
                     space,
                     self.fields.real(Buffer::Position(points))?,
                     self.fields.real(Buffer::Support(points))?,
-                    self.fields.index(Buffer::Neighbours(points))?,
-                    self.fields.index(Buffer::NeighbourCount(points))?,
-                    sizes.capacity,
-                    weight,
+                    self.lists(points)?,
+                    constants.weight,
                     &mut factor,
                     &mut rung,
                 )));
@@ -187,10 +193,10 @@ impl<T: Real> CpuEngine<T> {
                 let mut support = self.fields.take(Buffer::Support(points))?;
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                with_weight!(constants.weight, weight => with_space!(self.domain, space => fit::widen_support(
+                with_space!(self.domain, space => with_order!(constants.order, [N, F, M] => fit::widen_support::<T, _, N, F, M>(
                     self.search(points, space)?,
                     sizes.capacity,
-                    weight,
+                    constants.weight,
                     &mut support,
                     &mut found,
                     &mut count,
@@ -205,14 +211,28 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::AssembleLaplacian => {
                 with_taken!(self.fields, [row = Buffer::LaplacianRow], {
-                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
-                        rows::assemble_laplacian(self.fits(Points::Standing, weight, space)?, &mut row)));
+                    let standing = Points::Standing;
+                    with_space!(self.domain, space => with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_laplacian(self.fits::<_, N, F>(standing, space)?, &mut row)));
                 });
             }
             Operation::AssembleGradient => {
                 with_taken!(self.fields, [row = Buffer::GradientRow], {
-                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
-                        rows::assemble_gradient(self.fits(Points::Standing, weight, space)?, &mut row)));
+                    let standing = Points::Standing;
+                    with_space!(self.domain, space => with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_gradient(self.fits::<_, N, F>(standing, space)?, &mut row)));
+                });
+            }
+            Operation::AssembleIntegralLaplacian => {
+                with_taken!(self.fields, [row = Buffer::LaplacianRow], {
+                    with_space!(self.domain, space =>
+                        integral::assemble_integral_laplacian(self.means(space)?, &mut row));
+                });
+            }
+            Operation::AssembleIntegralGradient => {
+                with_taken!(self.fields, [row = Buffer::GradientRow], {
+                    with_space!(self.domain, space =>
+                        integral::assemble_integral_gradient(self.means(space)?, &mut row));
                 });
             }
             _ => {
@@ -234,6 +254,29 @@ impl<T: Real> CpuEngine<T> {
         Ok(())
     }
 
+    /// What is done to a known field.
+    fn field(&mut self, operation: Operation) -> Result<(), EngineError> {
+        match operation {
+            Operation::Average => {
+                with_taken!(self.fields, [out = Buffer::FieldAverage], {
+                    let field = self.fields.real(Buffer::Field)?;
+                    with_space!(self.domain, space => integral::average(self.means(space)?, field, &mut out));
+                });
+            }
+            Operation::Gradient => {
+                with_taken!(self.fields, [out = Buffer::FieldGradient], {
+                    derivative::gradient(self.gradient()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+            _ => {
+                with_taken!(self.fields, [out = Buffer::FieldLaplacian], {
+                    derivative::laplacian(self.laplacian()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+        }
+        Ok(())
+    }
+
     fn drift(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
         let (sizes, constants) = (&scene.sizes, &scene.constants);
@@ -243,8 +286,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::FitVelocity(points) => {
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let values = self.fields.real(moving)?;
-                    with_weight!(constants.weight, weight => with_space!(self.domain, space =>
-                        fits::fit_velocity(self.fits(points, weight, space)?, values, &mut coefficients)));
+                    with_space!(self.domain, space => with_order!(constants.order, [N, F, M] =>
+                        fits::fit_velocity(self.fits::<_, N, F>(points, space)?, values, &mut coefficients)));
                 });
             }
             Operation::MovePoints => {
@@ -257,7 +300,7 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::RemapForward => {
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    with_space!(self.domain, space => remap::remap_forward(
+                    with_space!(self.domain, space => with_order!(constants.order, [N, F, M] => remap::remap_forward::<T, _, N>(
                         space,
                         self.standing(Buffer::Position)?,
                         self.fields.real(Buffer::Position(Points::Moved))?,
@@ -266,7 +309,7 @@ impl<T: Real> CpuEngine<T> {
                         self.fields.real(Buffer::Coefficients)?,
                         sizes.interior,
                         &mut velocity,
-                    ));
+                    )));
                 });
             }
             Operation::KeepVelocity => {
@@ -277,7 +320,7 @@ impl<T: Real> CpuEngine<T> {
             _ => {
                 let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    with_space!(self.domain, space => remap::remap_departure(
+                    with_space!(self.domain, space => with_order!(constants.order, [N, F, M] => remap::remap_departure::<T, _, N>(
                         space,
                         self.standing(Buffer::Position)?,
                         self.standing(Buffer::Support)?,
@@ -291,7 +334,7 @@ impl<T: Real> CpuEngine<T> {
                         dt,
                         sizes.interior,
                         &mut velocity,
-                    ));
+                    )));
                 });
             }
         }
@@ -378,6 +421,19 @@ impl<T: Real> CpuEngine<T> {
                         conservative::divergence(faces, space, position, velocity, scale, &mut source));
                 });
             }
+            Operation::DivergenceByFit => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    let scale = T::from_f64(-density_per_kick);
+                    let velocity = self.fields.real(Buffer::Projected)?;
+                    conservative::divergence_by_fit(self.fluxes()?, velocity, scale, &mut source);
+                });
+            }
+            Operation::AddWallFlux => {
+                with_taken!(self.fields, [source = Buffer::Source], {
+                    let scale = T::from_f64(-density_per_kick);
+                    conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, scale, &mut source);
+                });
+            }
             Operation::CollocatedSource => {
                 with_taken!(self.fields, [source = Buffer::Source], {
                     collocated::source(
@@ -390,19 +446,6 @@ impl<T: Real> CpuEngine<T> {
                         [sizes.interior, sizes.points],
                         &mut source,
                     );
-                });
-            }
-            Operation::DivergenceByFit => {
-                with_taken!(self.fields, [source = Buffer::Source], {
-                    let scale = T::from_f64(-density_per_kick);
-                    let velocity = self.fields.real(Buffer::Projected)?;
-                    conservative::divergence_by_fit(self.fluxes()?, velocity, scale, &mut source);
-                });
-            }
-            Operation::AddWallFlux => {
-                with_taken!(self.fields, [source = Buffer::Source], {
-                    let scale = T::from_f64(-density_per_kick);
-                    conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, scale, &mut source);
                 });
             }
             Operation::DirectSolve => self.solve_directly()?,
@@ -430,7 +473,7 @@ impl<T: Real> CpuEngine<T> {
     }
 
     fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
-        Ok(collocated::Collocated { lists: self.lists()?, row: self.fields.real(Buffer::MatrixRow)? })
+        Ok(collocated::Collocated { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::MatrixRow)? })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -552,6 +595,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::WidenSupport(_)
             | Operation::AssembleLaplacian
             | Operation::AssembleGradient
+            | Operation::AssembleIntegralLaplacian
+            | Operation::AssembleIntegralGradient
             | Operation::AssembleCollocated => self.geometry(operation),
             Operation::FitVelocity(_)
             | Operation::RemapDeparture
@@ -566,6 +611,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
+            Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence
             | Operation::DivergenceByFit
             | Operation::AddWallFlux
@@ -623,9 +669,9 @@ impl<T: Real> Engine for CpuEngine<T> {
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
-            let (weight, end) = (scene.constants.weight, scene.sizes.interior);
-            with_weight!(weight, weight => with_space!(self.domain, space => fits::fitted_divergence(
-                self.fits(Points::Standing, weight, space)?, velocity, end, &mut divergence)));
+            let (order, standing, end) = (scene.constants.order, Points::Standing, scene.sizes.interior);
+            with_space!(self.domain, space => with_order!(order, [N, F, M] => fits::fitted_divergence(
+                self.fits::<_, N, F>(standing, space)?, velocity, end, &mut divergence)));
             measurement.divergence = measure::rms(&divergence, points);
         }
         self.fields.put(Buffer::Reported, reported);

@@ -86,7 +86,10 @@ impl Memory {
 
     /// Every array of indexes names points, but for counts and rungs.
     fn check_indexes(&self, buffer: Buffer, values: &[u32]) -> Result<(), EngineError> {
-        if !matches!(buffer, Buffer::Neighbours(_) | Buffer::FaceNeighbours | Buffer::FluxPoints | Buffer::CellPoints(_)) {
+        if !matches!(
+            buffer,
+            Buffer::Neighbours(_) | Buffer::FaceNeighbours | Buffer::FluxPoints | Buffer::CellPoints(_)
+        ) {
             return Ok(());
         }
         match values.iter().position(|&index| index as usize >= self.sizes.points) {

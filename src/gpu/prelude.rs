@@ -5,7 +5,8 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
-use crate::cpu::operations::moments::{COEFFICIENTS, FACTOR, PIVOT_THRESHOLD};
+use crate::cpu::operations::integral::DIMENSIONS;
+use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
 use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
@@ -93,8 +94,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CELLS_X", constants.grid.cells[0] as usize),
         ("CELLS_Y", constants.grid.cells[1] as usize),
         ("TILES", sizes.cells.div_ceil(GROUP as usize)),
-        ("COEFFICIENTS", COEFFICIENTS),
-        ("FACTOR", FACTOR),
+        ("ORDER", constants.order),
+        ("COEFFICIENTS", sizes.coefficients),
+        ("FACTOR", entries(sizes.coefficients)),
         ("WIDER_STEPS", Rung::WIDER.len()),
         ("RUNG_LINEAR", Rung::LINEAR as usize),
         ("RUNG_NEAREST", Rung::NEAREST as usize),
@@ -114,6 +116,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     ];
     let real: &[(&str, f64)] = &[
         ("RADIUS", constants.radius),
+        ("LATTICE_DENSITY", constants.lattice.density),
+        ("LATTICE_SPREAD", constants.lattice.spread),
+        ("DIMENSIONS", DIMENSIONS),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
         ("STOP_FLOOR", constants.floor),

@@ -18,7 +18,7 @@ pub struct FieldError {
 impl FieldError {
     /// Compares at the time of the snapshot; pressures are relative to their means over the points.
     pub fn new(snapshot: &Snapshot, exact: &Exact, component: Component) -> Self {
-        let Snapshot { time, position, velocity, pressure } = snapshot;
+        let Snapshot { time, position, velocity, pressure, .. } = snapshot;
         let pick = |u: DVec2| match component {
             Component::U => DVec2::new(u.x, 0.0),
             Component::V => DVec2::new(u.y, 0.0),

@@ -64,7 +64,8 @@ mod tests {
     #[test]
     fn points_near_a_seam_have_copies_across_it_and_corners_three() {
         let cloud = [DVec2::new(0.5, 0.5), DVec2::new(0.05, 0.5), DVec2::new(0.95, 0.02)];
-        let count = |images: &Images, point: usize| (0..images.position.len()).filter(|&k| images.point(k) == point).count();
+        let count =
+            |images: &Images, point: usize| (0..images.position.len()).filter(|&k| images.point(k) == point).count();
         let both = Images::new(&cloud, DVec2::ONE, 0.1);
         assert_eq!([0, 1, 2].map(|point| count(&both, point)), [1, 2, 4]);
         assert!(both.position.contains(&DVec2::new(1.05, 0.5)) && both.points() == 3);

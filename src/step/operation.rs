@@ -38,6 +38,10 @@ pub enum Operation {
     AssembleLaplacian,
     /// Rows of the fitted gradient.
     AssembleGradient,
+    /// Rows of the Laplacian as a weighted mean over neighbours, (2.4).
+    AssembleIntegralLaplacian,
+    /// Rows of the gradient as a weighted mean over neighbours, (2.3).
+    AssembleIntegralGradient,
     /// Rows of the collocated pressure matrix: the Laplacian's inside, the normal derivative's at walls.
     AssembleCollocated,
 
@@ -82,6 +86,13 @@ pub enum Operation {
     HoldWalls,
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
+
+    /// The weighted mean of a known field over neighbours, (2.2).
+    Average,
+    /// The gradient of a known field.
+    Gradient,
+    /// The Laplacian of a known field.
+    Laplacian,
 }
 
 impl Operation {
@@ -94,6 +105,8 @@ impl Operation {
             Operation::WidenSupport(_) => "widen_support",
             Operation::AssembleLaplacian => "assemble_laplacian",
             Operation::AssembleGradient => "assemble_gradient",
+            Operation::AssembleIntegralLaplacian => "assemble_integral_laplacian",
+            Operation::AssembleIntegralGradient => "assemble_integral_gradient",
             Operation::AssembleCollocated => "assemble_collocated",
             Operation::FitVelocity(_) => "fit_velocity",
             Operation::RemapDeparture => "remap_departure",
@@ -115,6 +128,9 @@ impl Operation {
             Operation::CorrectByAdjoint => "correct_by_adjoint",
             Operation::HoldWalls => "hold_walls",
             Operation::Reflect => "reflect",
+            Operation::Average => "average",
+            Operation::Gradient => "gradient",
+            Operation::Laplacian => "laplacian",
         }
     }
 
@@ -128,6 +144,12 @@ impl Operation {
             list.extend_from_slice(more);
             list
         };
+        let means = vec![
+            Position(Points::Standing),
+            Support(Points::Standing),
+            Neighbours(Points::Standing),
+            NeighbourCount(Points::Standing),
+        ];
         let sums = |row| vec![Neighbours(Points::Standing), NeighbourCount(Points::Standing), row];
         let faces = [FaceNeighbours, FaceWeight, FaceCount];
         let standing = Points::Standing;
@@ -139,6 +161,7 @@ impl Operation {
             }
             Operation::WidenSupport(points) => vec![Position(points), CellStart(points), CellPoints(points)],
             Operation::AssembleLaplacian | Operation::AssembleGradient => fits(standing),
+            Operation::AssembleIntegralLaplacian | Operation::AssembleIntegralGradient => means,
             Operation::AssembleCollocated => with(sums(LaplacianRow), &[GradientRow, Normal]),
             Operation::FitVelocity(points) => with(fits(points), &[plan.moving()]),
             Operation::RemapDeparture => {
@@ -165,6 +188,9 @@ impl Operation {
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
             Operation::Reflect => vec![Velocity, Projected, Kick],
+            Operation::Average => with(means, &[Field]),
+            Operation::Gradient => with(sums(GradientRow), &[Field]),
+            Operation::Laplacian => with(sums(LaplacianRow), &[Field]),
         }
     }
 
@@ -178,8 +204,8 @@ impl Operation {
             Operation::WidenSupport(points) => {
                 vec![Support(points), Neighbours(points), NeighbourCount(points), Factor(points), Rung(points)]
             }
-            Operation::AssembleLaplacian => vec![LaplacianRow],
-            Operation::AssembleGradient => vec![GradientRow],
+            Operation::AssembleLaplacian | Operation::AssembleIntegralLaplacian => vec![LaplacianRow],
+            Operation::AssembleGradient | Operation::AssembleIntegralGradient => vec![GradientRow],
             Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
             Operation::FitVelocity(_) => vec![Coefficients],
             Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
@@ -199,6 +225,9 @@ impl Operation {
             }
             Operation::DirectSolve => vec![Pressure],
             Operation::Reflect => vec![PressureKick, Reflected],
+            Operation::Average => vec![FieldAverage],
+            Operation::Gradient => vec![FieldGradient],
+            Operation::Laplacian => vec![FieldLaplacian],
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{Axes, Case, Divergence as Flux, Gradient, PressureForm, Remap, Solver, Splitting};
+use crate::case::{self, Axes, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -18,6 +18,8 @@ pub struct Sizes {
     pub flux_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
+    /// Coefficients of a fit.
+    pub coefficients: usize,
 }
 
 /// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.
@@ -34,10 +36,98 @@ pub struct Plan {
     pub splitting: Splitting,
     /// Fluid comes and goes through the sides.
     pub through_flow: bool,
+    /// True of a flow in time; else `kick` is all there is to do, once.
+    pub flows: bool,
+}
+
+fn solve_by(solver: Solver) -> Operation {
+    match solver {
+        Solver::ConjugateGradient => Operation::ConjugateGradient,
+        Solver::Bicgstab => Operation::Bicgstab,
+        Solver::Direct => Operation::DirectSolve,
+    }
+}
+
+/// The rows that a plan needs, and the form that they are of.
+struct Rows {
+    operators: Operators,
+    laplacian: bool,
+    gradient: bool,
+}
+
+impl Rows {
+    /// Everything up to the rows: the search for neighbours, the fits where something needs them.
+    fn setup(&self, evaluates_fits: bool) -> Vec<Operation> {
+        use Operation::*;
+        let points = Points::Standing;
+        let interpolation = self.operators == Operators::Interpolation;
+        let mut setup = vec![BuildCells(points), FindNeighbours(points)];
+        if interpolation || evaluates_fits {
+            setup.extend([Factorise(points), WidenSupport(points)]);
+        }
+        if self.laplacian {
+            setup.push(if interpolation { AssembleLaplacian } else { AssembleIntegralLaplacian });
+        }
+        if self.gradient {
+            setup.push(if interpolation { AssembleGradient } else { AssembleIntegralGradient });
+        }
+        setup
+    }
 }
 
 impl Plan {
     pub fn new(case: &Case) -> Self {
+        match case.problem() {
+            Problem::Flow => Self::of_flow(case),
+            Problem::Derivatives(_) => Self::of_derivatives(case),
+            Problem::Poisson(_) => Self::of_poisson(case),
+        }
+    }
+
+    /// Derivatives of a known field, once.
+    fn of_derivatives(case: &Case) -> Self {
+        let interpolation = case.method.operators == Operators::Interpolation;
+        let laplacian = !interpolation || case.method.order > 1;
+        let setup = Rows { operators: case.method.operators, laplacian, gradient: true }.setup(false);
+        let mut kick = vec![Operation::Gradient];
+        if laplacian {
+            kick.push(Operation::Laplacian);
+        }
+        if !interpolation {
+            kick.push(Operation::Average);
+        }
+        Self {
+            setup,
+            drift: Vec::new(),
+            kick,
+            form: None,
+            splitting: Splitting::Projection,
+            through_flow: false,
+            flows: false,
+        }
+    }
+
+    /// The pressure equation with a known source, once.
+    fn of_poisson(case: &Case) -> Self {
+        let pressure = case.effects.pressure.clone().unwrap_or_default();
+        let mut setup = Vec::new();
+        if pressure.form == PressureForm::Collocated {
+            setup = Rows { operators: Operators::Interpolation, laplacian: true, gradient: true }.setup(false);
+            setup.push(Operation::AssembleCollocated);
+        }
+        let kick = vec![solve_by(pressure.solver())];
+        Self {
+            setup,
+            drift: Vec::new(),
+            kick,
+            form: Some(pressure.form),
+            splitting: Splitting::Projection,
+            through_flow: false,
+            flows: false,
+        }
+    }
+
+    fn of_flow(case: &Case) -> Self {
         use Operation::*;
         let effects = &case.effects;
         // Without a pressure there is nothing to reflect.
@@ -46,16 +136,15 @@ impl Plan {
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
         let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
         let standing = Points::Standing;
-        let gradient = effects.pressure.as_ref().map(|pressure| pressure.gradient());
-        let fits_faces = effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == Flux::Fit);
-        let mut setup =
-            vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
-        if effects.viscosity.is_some() || collocated {
-            setup.push(AssembleLaplacian);
-        }
-        if gradient == Some(Gradient::Fit) {
-            setup.push(AssembleGradient);
-        }
+        let fits_faces =
+            effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);
+        let rows = Rows {
+            operators: case.method.operators,
+            laplacian: effects.viscosity.is_some() || collocated,
+            gradient: effects.pressure.as_ref().is_some_and(|pressure| pressure.gradient() == case::Gradient::Fit),
+        };
+        // What carries the velocity evaluates fits.
+        let mut setup = rows.setup(effects.advection.is_some());
         let mut drift = Vec::new();
         match effects.advection.as_ref().map(|advection| advection.remap) {
             None => drift.push(KeepVelocity),
@@ -91,14 +180,10 @@ impl Plan {
             if through_flow && !collocated {
                 kick.push(AddWallFlux);
             }
-            kick.push(match pressure.solver() {
-                Solver::ConjugateGradient => ConjugateGradient,
-                Solver::Bicgstab => Bicgstab,
-                Solver::Direct => DirectSolve,
-            });
+            kick.push(solve_by(pressure.solver()));
             kick.push(match pressure.gradient() {
-                Gradient::Fit => CorrectByFit,
-                Gradient::Adjoint => CorrectByAdjoint,
+                case::Gradient::Fit => CorrectByFit,
+                case::Gradient::Adjoint => CorrectByAdjoint,
             });
             if collocated {
                 kick.push(HoldWalls);
@@ -107,8 +192,15 @@ impl Plan {
         if reflects {
             kick.push(Reflect);
         }
-        let form = effects.pressure.as_ref().map(|pressure| pressure.form);
-        Self { setup, drift, kick, form, splitting, through_flow }
+        Self {
+            setup,
+            drift,
+            kick,
+            form: effects.pressure.as_ref().map(|pressure| pressure.form),
+            splitting,
+            through_flow,
+            flows: true,
+        }
     }
 
     /// Every operation, setup first.
@@ -160,11 +252,13 @@ impl Plan {
         self.form == Some(PressureForm::Collocated)
     }
 
-    /// Every array that some operation touches, and `Volume` and `Reported`, which the reports need; in a fixed order.
+    /// Every array that some operation touches, and those that the reports of a flow need; in a fixed order.
     pub fn buffers(&self) -> Vec<Buffer> {
         let mut buffers: Vec<Buffer> =
             self.operations().flat_map(|operation| [operation.reads(self), operation.writes()].concat()).collect();
-        buffers.extend([Buffer::Volume, Buffer::Reported, Buffer::Projected, Buffer::Velocity]);
+        if self.flows {
+            buffers.extend([Buffer::Volume, Buffer::Reported, Buffer::Projected, Buffer::Velocity]);
+        }
         buffers.sort_unstable();
         buffers.dedup();
         buffers

@@ -69,7 +69,6 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("radius = 2.8", "radius = 2.8\n[exact]\nspeed = 1.0", "bad.toml:15: exact.speed is not a key; [exact] has solution"),
     ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"kovasznay\"", "bad.toml:11: boundaries.top.velocity = [1.0, 0.0]: the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them"),
     ("top.velocity = [1.0, 0.0]\n", "[exact]\nsolution = \"taylor_green\"\n", "bad.toml:12: exact.solution = \"taylor_green\": repeats along x and y: it needs domain.periodic = \"both\""),
-    ("[effects.viscosity]\nkinematic = 0.01\n", "[exact]\nsolution = \"kovasznay\"\n", "the table effects.viscosity is absent"),
     // The effects and the time.
     ("kinematic = 0.01", "kinematic = -0.01", "bad.toml:15: effects.viscosity.kinematic = -0.01: must be a number above 0, m^2/s (for none, leave out the table"),
     ("form = \"conservative\"", "form = \"collocated\"\nsolver = \"conjugate_gradient\"", "bad.toml:18: effects.pressure.solver = \"conjugate_gradient\": the collocated matrix (effects.pressure.form) is not symmetric: conjugate gradients do not apply; use bicgstab"),

@@ -19,6 +19,7 @@ mod least_squares;
 mod matrix;
 mod memory;
 mod options;
+mod orders;
 mod poisson;
 mod remap;
 mod repeatability;

@@ -25,7 +25,9 @@ fn next(operation: Operation) -> Option<Operation> {
         WidenSupport(Standing) => WidenSupport(Moved),
         WidenSupport(Moved) => AssembleLaplacian,
         AssembleLaplacian => AssembleGradient,
-        AssembleGradient => AssembleCollocated,
+        AssembleGradient => AssembleIntegralLaplacian,
+        AssembleIntegralLaplacian => AssembleIntegralGradient,
+        AssembleIntegralGradient => AssembleCollocated,
         AssembleCollocated => FitVelocity(Standing),
         FitVelocity(Standing) => FitVelocity(Moved),
         FitVelocity(Moved) => RemapDeparture,
@@ -48,7 +50,10 @@ fn next(operation: Operation) -> Option<Operation> {
         CorrectByFit => CorrectByAdjoint,
         CorrectByAdjoint => HoldWalls,
         HoldWalls => Reflect,
-        Reflect => return None,
+        Reflect => Average,
+        Average => Gradient,
+        Gradient => Laplacian,
+        Laplacian => return None,
     })
 }
 

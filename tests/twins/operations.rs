@@ -56,6 +56,8 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::Factorise(_)
         | Operation::AssembleLaplacian
         | Operation::AssembleGradient
+        | Operation::AssembleIntegralLaplacian
+        | Operation::AssembleIntegralGradient
         | Operation::AssembleCollocated
         | Operation::FitVelocity(_)
         | Operation::MovePoints
@@ -64,7 +66,10 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::Divergence
         | Operation::DivergenceByFit
         | Operation::CollocatedSource
-        | Operation::DirectSolve => operation.writes(),
+        | Operation::DirectSolve
+        | Operation::Average
+        | Operation::Gradient
+        | Operation::Laplacian => operation.writes(),
         _ => vec![],
     }
 }
@@ -94,6 +99,9 @@ fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
         }
     };
     through(&scene.plan.setup, engines);
+    if !scene.plan.flows {
+        return through(&scene.plan.kick, engines);
+    }
     if scene.cloud.normal.is_empty() {
         stir(scene, engines.double.as_mut());
     }
@@ -191,7 +199,7 @@ fn a_planted_difference_is_reported_with_its_operation_its_array_and_its_point()
                 let by = 3.0 * allowed(&scene, buffer, &results);
                 match gpu.get_mut(&buffer).expect("an array") {
                     Data::Real(values) => values[entry] += by.max(f64::from(f32::MIN_POSITIVE)),
-                    Data::Index(values) => values[entry] += 1,
+                    Data::Index(values) => values[entry] = values[entry].wrapping_add(1),
                 }
                 let found: Vec<_> = done.differences().iter().map(|d| (d.operation, d.buffer, d.point)).collect();
                 assert_eq!(found, [(done.operation, buffer, point)], "{name}, by {by:e}");

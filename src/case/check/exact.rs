@@ -1,13 +1,20 @@
 //! Checks that a case is one that its exact solution solves.
 
 use super::super::fault::Fault;
-use super::super::{Axes, Case, Domain, Solution};
+use super::super::{Axes, Case, Domain, Field, Problem, Solution};
 
 /// Part by which the sides of a box may miss a whole number of wavelengths.
 const WHOLE_WITHIN: f64 = 1e-9;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    check_known(case)?;
     let Some(exact) = &case.exact else { return Ok(()) };
+    if case.problem() != Problem::Flow {
+        return Err(Fault::reason(
+            "exact",
+            "belongs to a flow; beside the tables derivatives and poisson leave it out",
+        ));
+    }
     let effects = &case.effects;
     let present = [
         ("viscosity", effects.viscosity.is_some()),
@@ -21,6 +28,19 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     match exact.solution {
         Solution::TaylorGreen => taylor_green(&case.domain),
         Solution::Kovasznay => kovasznay(&case.domain),
+    }
+}
+
+/// A known field repeats where the domain does.
+fn check_known(case: &Case) -> Result<(), Fault> {
+    let key = match case.problem() {
+        Problem::Derivatives(Field::Cosines) => "derivatives.field",
+        Problem::Poisson(Field::Cosines) => "poisson.field",
+        _ => return Ok(()),
+    };
+    match case.domain.periodic {
+        Axes::None => Ok(()),
+        _ => Err(Fault::reason(key, "does not repeat with the domain: it needs domain.periodic = \"none\"")),
     }
 }
 

@@ -31,7 +31,8 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     check_arrangement(cloud)?;
     require(case.fluid.density > 0.0, "fluid.density")?;
     check_walls(case)?;
-    let radius = case.method.radius;
+    require((1..=4).contains(&case.method.order), "method.order")?;
+    let radius = case.method.radius();
     require(radius > SMALLEST_RADIUS && radius <= LARGEST_RADIUS, "method.radius")?;
     check_period(case)
 }
@@ -138,7 +139,8 @@ fn check_walls(case: &Case) -> Result<(), Fault> {
             let axis = ["x", "y"][across];
             format!("the domain repeats along {axis} (domain.periodic), so that there is no wall; leave it out")
         } else if case.exact.is_some() {
-            "the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them".to_owned()
+            "the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them"
+                .to_owned()
         } else if velocity[across] != 0.0 {
             let tangent = ["[0, v]", "[u, 0]"][across];
             format!("must be along the wall, {tangent}: a solid wall lets no fluid through")
@@ -152,7 +154,7 @@ fn check_walls(case: &Case) -> Result<(), Fault> {
 
 /// The shortest way between two points is one way alone: a box is wider than any neighbourhood.
 fn check_period(case: &Case) -> Result<(), Fault> {
-    let least = 2.0 * WIDEST_LADDER * case.method.radius * case.cloud.spacing;
+    let least = 2.0 * WIDEST_LADDER * case.method.radius() * case.cloud.spacing;
     let period = case.domain.period();
     for (key, length) in [("domain.width", period.x), ("domain.height", period.y)] {
         if length > 0.0 && length <= least {

@@ -1,4 +1,4 @@
-//! Derivatives of fields by the rows at hand: viscosity and the pressure gradient. What the rows are is in [`super::rows`].
+//! Derivatives of fields by the rows at hand: viscosity, the pressure gradient, and those of a known field. What the rows are is in [`super::rows`].
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::rows::Lists;
@@ -13,6 +13,20 @@ pub struct Laplacian<'a, T> {
 }
 
 impl<T: Real> Laplacian<'_, T> {
+    /// Of a scalar field at the points `i..i + LANES`.
+    #[inline(always)]
+    fn of_scalar(&self, i: usize, field: &[T]) -> T::Pack {
+        let own = T::Pack::load(&field[i..]);
+        let first = blocks::at(i, 0, self.lists.capacity);
+        let mut sum = T::Pack::zero();
+        self.lists.for_each::<T>(i, |slot, index| {
+            // SAFETY: every stored neighbour is below the number of points.
+            let difference = unsafe { T::Pack::gather(field, index) } - own;
+            sum = T::Pack::load(&self.row[first + slot * BLOCK..]).mul_add(difference, sum);
+        });
+        sum
+    }
+
     /// Of both components of a velocity at the points `i..i + LANES`.
     #[inline(always)]
     fn of_vector(&self, i: usize, field: &[T]) -> [T::Pack; 2] {
@@ -108,6 +122,28 @@ pub fn correct_by_fit<T: Real>(
         for i in blocks::packs::<T>(block, end) {
             let sum = gradient.of_scalar(i, pressure);
             add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
+        }
+    });
+}
+
+/// The gradient of a known field at every point, 1/m.
+pub fn gradient<T: Real>(gradient: Gradient<T>, field: &[T], out: &mut [T]) {
+    blocks::for_each(out, 2, &|block, out| {
+        for first in (0..BLOCK).step_by(T::Pack::LANES) {
+            let [x, y] = gradient.of_scalar(block * BLOCK + first, field);
+            for lane in 0..T::Pack::LANES {
+                out[2 * (first + lane)] = x.lane(lane);
+                out[2 * (first + lane) + 1] = y.lane(lane);
+            }
+        }
+    });
+}
+
+/// The Laplacian of a known field at every point, 1/m^2.
+pub fn laplacian<T: Real>(laplacian: Laplacian<T>, field: &[T], out: &mut [T]) {
+    blocks::for_each(out, 1, &|block, out| {
+        for first in (0..BLOCK).step_by(T::Pack::LANES) {
+            laplacian.of_scalar(block * BLOCK + first, field).store(&mut out[first..]);
         }
     });
 }

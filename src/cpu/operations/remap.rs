@@ -4,13 +4,13 @@
 //! to; a fit (2.5) there is evaluated where the points stand.
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::moments::COEFFICIENTS;
+use crate::cpu::operations::moments;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{One, Real};
 
 /// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity being that
 /// at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
-pub fn remap_departure<T: Real, S: Space<T>>(
+pub fn remap_departure<T: Real, S: Space<T>, const N: usize>(
     space: S,
     position: &[T],
     support: &[T],
@@ -21,7 +21,7 @@ pub fn remap_departure<T: Real, S: Space<T>>(
     end: usize,
     velocity: &mut [T],
 ) {
-    let evaluate = |j, place| evaluate(space, position, support, values, coefficients, j, place);
+    let evaluate = |j, place| evaluate::<T, S, N>(space, position, support, values, coefficients, j, place);
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
@@ -35,9 +35,9 @@ pub fn remap_departure<T: Real, S: Space<T>>(
     });
 }
 
-/// The fit of point `j` at `place`: its value and its five coefficients.
+/// The fit of point `j` at `place`: its value and its `N` coefficients.
 #[inline(always)]
-fn evaluate<T: Real, S: Space<T>>(
+fn evaluate<T: Real, S: Space<T>, const N: usize>(
     space: S,
     position: &[T],
     support: &[T],
@@ -47,13 +47,13 @@ fn evaluate<T: Real, S: Space<T>>(
     place: [T; 2],
 ) -> [T; 2] {
     let per = T::from_f64(1.0) / support[j];
-    let [x, y] = offset(space, position, j, place).map(|d| d * per);
-    let basis = [x, y, x * x, x * y, y * y];
-    let first = blocks::at(j, 0, 2 * COEFFICIENTS);
+    let [x, y] = offset(space, position, j, place).map(|d| One(d * per));
+    let basis: [One<T>; N] = moments::basis(x, y);
+    let first = blocks::at(j, 0, 2 * N);
     let part = |c: usize| {
         let mut sum = values[2 * j + c];
         for (k, term) in basis.into_iter().enumerate() {
-            sum += coefficients[first + (c * COEFFICIENTS + k) * BLOCK] * term;
+            sum += coefficients[first + (c * N + k) * BLOCK] * term.0;
         }
         sum
     };
@@ -120,7 +120,7 @@ pub fn move_points<T: Real, S: Space<T>>(
 }
 
 /// The paper's remap: the fit of each moved point, evaluated at its standing place `r0`, that is at `r0 - r'`.
-pub fn remap_forward<T: Real, S: Space<T>>(
+pub fn remap_forward<T: Real, S: Space<T>, const N: usize>(
     space: S,
     standing: &[T],
     moved: &[T],
@@ -133,7 +133,7 @@ pub fn remap_forward<T: Real, S: Space<T>>(
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
             let place = [standing[2 * i], standing[2 * i + 1]];
-            let value = evaluate(space, moved, support, values, coefficients, i, place);
+            let value = evaluate::<T, S, N>(space, moved, support, values, coefficients, i, place);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }

@@ -7,7 +7,7 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::fits::Fits;
-use crate::cpu::operations::moments::{self, COEFFICIENTS, WeightFunction};
+use crate::cpu::operations::moments;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
 
@@ -33,18 +33,22 @@ impl Lists<'_> {
 }
 
 /// Fills the rows of the fitted Laplacian: `lap phi = 2 (a3 + a5) / r_e^2`.
-pub fn assemble_laplacian<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T, W, S>, row: &mut [T]) {
-    let slots = fits.capacity;
-    let (two, zero) = (T::Pack::splat(T::from_f64(2.0)), T::Pack::zero());
+///
+/// # Panics
+/// With a fit of order 1, which has no second derivatives; no plan asks for it.
+pub fn assemble_laplacian<T: Real, S: Space<T>, const N: usize, const F: usize>(fits: Fits<T, S, N, F>, row: &mut [T]) {
+    let slots = fits.lists.capacity;
     blocks::for_each(row, slots, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
             let stencil = fits.stencil(i);
-            let second = two * stencil.per_support * stencil.per_support;
-            let c = moments::solve(&fits.factor(i), [zero, zero, second, zero, second]);
+            let mut of = [T::Pack::zero(); N];
+            of[2] = T::Pack::splat(T::from_f64(2.0)) * stencil.per_support * stencil.per_support;
+            of[4] = of[2];
+            let c = moments::solve(&fits.factor(i), of);
             let mut place = first;
             stencil.for_each(|_, [x, y], square| {
-                (fits.weight.weight(square) * dot(&c, moments::basis(x, y))).store(&mut out[place..]);
+                (moments::weight(fits.weight, square) * dot(&c, moments::basis(x, y))).store(&mut out[place..]);
                 place += BLOCK;
             });
         }
@@ -52,19 +56,20 @@ pub fn assemble_laplacian<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T,
 }
 
 /// Fills the rows of the fitted gradient: `grad phi = (a1, a2) / r_e`.
-pub fn assemble_gradient<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T, W, S>, row: &mut [T]) {
-    let slots = fits.capacity;
-    let zero = T::Pack::zero();
+pub fn assemble_gradient<T: Real, S: Space<T>, const N: usize, const F: usize>(fits: Fits<T, S, N, F>, row: &mut [T]) {
+    let slots = fits.lists.capacity;
     blocks::for_each(row, 2 * slots, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
             let (stencil, factor) = (fits.stencil(i), fits.factor(i));
-            let per = stencil.per_support;
-            let along = [[per, zero, zero, zero, zero], [zero, per, zero, zero, zero]];
-            let c = along.map(|along| moments::solve(&factor, along));
+            let c = [0, 1].map(|axis| {
+                let mut of = [T::Pack::zero(); N];
+                of[axis] = stencil.per_support;
+                moments::solve(&factor, of)
+            });
             let mut place = first;
             stencil.for_each(|_, [x, y], square| {
-                let (weight, basis) = (fits.weight.weight(square), moments::basis(x, y));
+                let (weight, basis) = (moments::weight(fits.weight, square), moments::basis(x, y));
                 (weight * dot(&c[0], basis)).store(&mut out[place..]);
                 (weight * dot(&c[1], basis)).store(&mut out[slots * BLOCK + place..]);
                 place += BLOCK;
@@ -74,9 +79,6 @@ pub fn assemble_gradient<T: Real, W: WeightFunction, S: Space<T>>(fits: Fits<T, 
 }
 
 #[inline(always)]
-fn dot<P: Copy>(c: &[P; COEFFICIENTS], b: [P; COEFFICIENTS]) -> P
-where
-    P: std::ops::Mul<Output = P> + std::ops::Add<Output = P>,
-{
-    (1..COEFFICIENTS).fold(c[0] * b[0], |sum, k| sum + c[k] * b[k])
+fn dot<T: Real, P: Pack<T>, const N: usize>(c: &[P; N], b: [P; N]) -> P {
+    (1..N).fold(c[0] * b[0], |sum, k| c[k].mul_add(b[k], sum))
 }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{CHANGES, Precision, candidate, engine, forceless_scene, made, open_scene, periodic_scene, scene, still_scene};
+use super::{
+    CHANGES, Precision, candidate, engine, forceless_scene, made, open_scene, periodic_scene, scene, still_scene,
+};
 use crate::cpu::CpuEngine;
 use crate::engine::{Data, Engine, EngineError};
 use crate::scene::Scene;

@@ -197,7 +197,8 @@ mod tests {
         let cloud = jittered_cloud(40, 0.35, 2);
         let field: Vec<f64> = cloud.iter().map(|x| 0.02 / (x.distance(DVec2::ONE) + 0.002)).collect();
         let (least, most) = field.iter().fold((1.0f64, 0.0f64), |(low, high), &v| (low.min(v), high.max(v)));
-        let raster = Surface::new(&cloud, 0.025, DVec2::ZERO, 1.0 / 500.0, [&field]).unwrap().raster(DVec2::ONE, 500, 500);
+        let raster =
+            Surface::new(&cloud, 0.025, DVec2::ZERO, 1.0 / 500.0, [&field]).unwrap().raster(DVec2::ONE, 500, 500);
         assert!(raster.value.iter().all(|[v]| (least - 1e-12..=most + 1e-12).contains(v)));
     }
 
