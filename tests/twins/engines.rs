@@ -13,8 +13,13 @@ use stillpoint::step::Buffer;
 use crate::adapter::{required, skipped};
 
 /// The files whose tests need a GPU.
-const SOURCES: [&str; 4] =
-    [include_str!("operations.rs"), include_str!("runs.rs"), include_str!("memory.rs"), include_str!("trouble.rs")];
+const SOURCES: [&str; 5] = [
+    include_str!("operations.rs"),
+    include_str!("runs.rs"),
+    include_str!("memory.rs"),
+    include_str!("times.rs"),
+    include_str!("trouble.rs"),
+];
 
 /// The adapter that the tests run on; `None` where they are skipped. Fails where there is none.
 pub fn candidate() -> Option<Candidate> {

@@ -17,4 +17,5 @@ mod memory;
 mod operations;
 mod runs;
 mod scenes;
+mod times;
 mod trouble;
