@@ -26,7 +26,8 @@ impl Timer {
         }
         let count = QUERY_SET_MAX_QUERIES;
         let usage = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
-        let room = BufferDescriptor { label: Some("times"), size: 8 * u64::from(count), usage, mapped_at_creation: false };
+        let room =
+            BufferDescriptor { label: Some("times"), size: 8 * u64::from(count), usage, mapped_at_creation: false };
         let stamps = QuerySetDescriptor { label: Some("times"), ty: QueryType::Timestamp, count };
         let (stamps, resolved) =
             gpu.checked("times", |device| (device.create_query_set(&stamps), device.create_buffer(&room)))?;

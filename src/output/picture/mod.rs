@@ -4,6 +4,7 @@ mod bar;
 mod canvas;
 mod centreline;
 mod colour;
+mod cost;
 mod frame;
 mod map;
 mod pressure;
@@ -15,6 +16,9 @@ mod ticks;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+pub use cost::draw_cost;
+pub use ticks::short;
 
 use super::file::check;
 use super::{OutputError, RunFolder};

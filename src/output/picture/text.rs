@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn every_sign_that_figures_use_is_in_the_font() {
         let text = Text::new().unwrap();
-        for sign in "0123456789.−⁰¹²³⁴⁵⁶⁷⁸⁹⁻[]|/=xyuvptmsPaé&–’".chars() {
+        for sign in "0123456789.−⁰¹²³⁴⁵⁶⁷⁸⁹⁻[]|/=xyuvptmsPaé&–’×%,:;()@_".chars() {
             assert_ne!(text.font.glyph_id(sign).0, 0, "{sign} is missing");
         }
     }
