@@ -40,3 +40,22 @@ fn line(table: &Table, row: &Row) -> String {
 fn cell(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::tests::table;
+    use super::*;
+
+    #[test]
+    fn every_row_has_a_cell_for_each_column() {
+        let mut table = table(&[(Some(0.01), 4.0), (None, 0.5)]);
+        table.rows[1].status = "failed: a \"quoted\", listed reason".to_owned();
+        let text = text(&table);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], format!("grid,cloud.spacing,{COLUMNS}"));
+        assert_eq!(lines[1], "all settings,0,25,100,700,0.01,4.0,3.6,4.8,8.0,4.0,12.0,0.01,0.5,0.25,,0.001,3,steady");
+        assert_eq!(lines[1].split(',').count(), lines[0].split(',').count());
+        assert!(lines[2].starts_with("all settings,1,25,100,700,,0.5,"), "{}", lines[2]);
+        assert!(lines[2].ends_with(",3,\"failed: a \"\"quoted\"\", listed reason\""), "{}", lines[2]);
+    }
+}

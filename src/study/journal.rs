@@ -85,3 +85,63 @@ impl Journal {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::super::tests::{good_run, study};
+    use super::*;
+
+    fn open(path: &Path, trials: &[Trial]) -> Result<Journal, OutputError> {
+        Journal::open(path, trials, &Machine::here())
+    }
+
+    #[test]
+    fn runs_are_found_again_by_their_whole_setting() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("runs.jsonl");
+        let mut trials = study(2).trials;
+        let mut journal = open(&path, &trials).expect("a new journal");
+        journal.append(1, good_run(1.0 / 3.0)).expect("a line");
+        journal.append(0, good_run(0.1)).expect("a line");
+        let runs = [vec![good_run(0.1)], vec![good_run(1.0 / 3.0)]];
+        assert_eq!(open(&path, &trials).expect("the same journal").runs(), runs);
+        trials.reverse();
+        assert_eq!(open(&path, &trials).expect("the same journal").runs(), [runs[1].clone(), runs[0].clone()]);
+        trials[0].threads = 2;
+        trials[1].case.time.courant = 0.25;
+        assert_eq!(open(&path, &trials).expect("the same journal").runs(), [vec![], vec![]]);
+        let other = Machine { cores: 999, ..Machine::here() };
+        assert_eq!(Journal::open(&path, &study(2).trials, &other).expect("the same journal").runs(), [vec![], vec![]]);
+    }
+
+    #[test]
+    fn a_line_cut_off_by_a_kill_is_dropped_and_its_run_made_again() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("runs.jsonl");
+        let trials = study(1).trials;
+        let mut journal = open(&path, &trials).expect("a new journal");
+        journal.append(0, good_run(1.0)).expect("a line");
+        journal.append(0, good_run(2.0)).expect("a line");
+        let text = fs::read(&path).expect("the file");
+        let first = text.iter().position(|byte| *byte == b'\n').expect("an end") + 1;
+        for length in (first..text.len()).step_by(97).chain([text.len() - 1]) {
+            fs::write(&path, &text[..length]).expect("a file");
+            let mut journal = open(&path, &trials).expect("a cut journal");
+            assert_eq!(journal.runs(), [vec![good_run(1.0)]], "cut at {length}");
+            journal.append(0, good_run(2.0)).expect("a line");
+            assert_eq!(fs::read(&path).expect("the file"), text, "cut at {length}");
+        }
+    }
+
+    #[test]
+    fn a_broken_line_is_named() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("runs.jsonl");
+        fs::write(&path, "{}\n{}\n").expect("a file");
+        let message = open(&path, &study(1).trials).expect_err("no journal").to_string();
+        assert!(message.contains("runs.jsonl, line 1: no run of a study: missing field"), "{message}");
+        assert!(message.ends_with("--fresh starts over"), "{message}");
+    }
+}

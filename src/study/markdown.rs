@@ -90,3 +90,22 @@ fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::tests::table;
+    use super::*;
+
+    #[test]
+    fn the_cheapest_settings_and_the_front_are_named() {
+        let text = text(&table(&[(Some(0.04), 0.25), (Some(0.02), 4.0), (Some(0.03), 5.0), (None, 1.0)]));
+        let has = |line: &str| assert!(text.lines().any(|known| known == line), "no {line:?} in\n{text}");
+        has("| 5% | setting 0 | 0.25 | 4% |");
+        has("| 1% | none reaches it | | |");
+        has("|  | setting 1 | 4 | 2% |");
+        has("stillpoint cost a.toml");
+        has("Machine: A Chip, 2 cores, linux, 1 thread used. Stillpoint 0.1.0.");
+        assert!(!text.contains("|  | setting 2 |"), "it is beaten");
+        assert_eq!(text.matches("| diverged after t = 0.25 s |").count(), 1);
+    }
+}

@@ -92,3 +92,67 @@ impl Study {
         Turn { done, all, words, left }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::path::Path;
+
+    use super::super::tests::{good_run, study};
+    use super::super::{End, Machine};
+    use super::*;
+
+    /// Runs a study whose trials take `seconds` each, or fail where they take none, and returns the order of the runs.
+    fn order(study: &Study, path: &Path, seconds: &[f64], stop_after: usize) -> (Vec<usize>, Completion) {
+        let mut journal = Journal::open(path, &study.trials, &Machine::here()).expect("a journal");
+        let made = RefCell::new(Vec::new());
+        let make = |trial: &Trial| {
+            let trial = study.trials.iter().position(|known| known == trial).expect("one of the study's");
+            made.borrow_mut().push(trial);
+            let failed = End::Failed { reason: "no time".to_owned() };
+            let end = if seconds[trial] > 0.0 { End::Steady } else { failed };
+            Some(Run { end, ..good_run(seconds[trial]) })
+        };
+        let stop = || made.borrow().len() >= stop_after;
+        let completion = study.run_with(&mut journal, &mut |_| {}, &stop, &make).expect("a session");
+        (made.into_inner(), completion)
+    }
+
+    #[test]
+    fn trials_take_turns_and_slow_and_failing_ones_run_once() {
+        let study = Study { repeats: 2, repeat_below: 5.0, ..study(4) };
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (made, completion) = order(&study, &folder.path().join("runs.jsonl"), &[0.1, 9.0, 0.0, 0.2], 100);
+        assert_eq!((made, completion), (vec![0, 1, 2, 3, 0, 3, 0, 3], Completion::Done));
+    }
+
+    #[test]
+    fn what_was_stopped_goes_on_and_what_is_done_is_not_done_again() {
+        let study = Study { repeats: 1, ..study(3) };
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("runs.jsonl");
+        assert_eq!(order(&study, &path, &[1.0; 3], 4), (vec![0, 1, 2, 0], Completion::Interrupted));
+        assert_eq!(order(&study, &path, &[1.0; 3], 4), (vec![1, 2], Completion::Done));
+        assert_eq!(order(&study, &path, &[1.0; 3], 4), (vec![], Completion::Done));
+        let more = Study { repeats: 2, ..study };
+        assert_eq!(order(&more, &path, &[1.0; 3], 4), (vec![0, 1, 2], Completion::Done), "one more of each");
+    }
+
+    #[test]
+    fn the_first_run_warms_up_and_counts_only_where_it_is_alone() {
+        let study = study(1);
+        let runs = [3.0, 1.0, 2.0].map(good_run);
+        assert_eq!(study.counted(&runs), &runs[1..]);
+        assert_eq!(study.counted(&runs[..1]), &runs[..1]);
+    }
+
+    #[test]
+    fn a_turn_says_how_many_runs_there_are_and_about_how_long_they_take() {
+        let study = Study { repeats: 1, repeat_below: 5.0, ..study(3) };
+        let runs = [vec![good_run(2.0), good_run(2.0)], vec![good_run(4.0)], vec![]];
+        let Turn { done, all, left, .. } = study.turn(&runs, "");
+        // One more of the second, and two of the third at the mean of the others.
+        assert_eq!((done, all, left), (3, 6, Some(Duration::from_secs(4 + 2 * 3))));
+        assert_eq!(study.turn(&[vec![], vec![], vec![]], "").left, None);
+    }
+}

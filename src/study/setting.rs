@@ -50,6 +50,8 @@ pub struct Setting {
     pub values: Vec<(String, String)>,
     /// What the settings of its line in the picture share, in words.
     pub family: String,
+    /// Where it stands on that line, in words; empty where it is alone.
+    pub along: String,
     /// All that is varied, in words.
     pub words: String,
     /// Which of the study's trials it is; rows of several grids may share one.
@@ -115,7 +117,7 @@ pub(super) fn in_words(key: &str, value: &str) -> String {
         }
         Ok(_) => format!("{name} {value}"),
         Err(_) if value == "true" || value == "false" => format!("{name} {value}"),
-        Err(_) => value.to_owned(),
+        Err(_) => value.replace('_', " "),
     }
 }
 
@@ -130,6 +132,7 @@ mod tests {
             ("cloud.spacing", "0.0104166666666666667", "1/96"),
             ("cloud.spacing", "0.3", "0.3"),
             ("cloud.arrangement", "random", "random"),
+            ("effects.pressure.solver", "conjugate_gradient", "conjugate gradient"),
             ("time.courant", "0.4", "courant 0.4"),
             ("output.pictures", "true", "pictures true"),
             ("threads", "2", "threads 2"),

@@ -36,6 +36,8 @@ pub struct Row {
     /// One for each of the table's keys; empty where the grid does not vary it.
     pub values: Vec<String>,
     pub family: String,
+    /// Where it stands on its family's line, in words.
+    pub along: String,
     /// All that is varied, in words.
     pub words: String,
     pub points: usize,
@@ -69,6 +71,7 @@ fn row(study: &Study, setting: &Setting, keys: &[String], runs: &[Run]) -> Row {
         grid: setting.grid,
         values: keys.iter().map(|key| value(key).unwrap_or_default()).collect(),
         family: setting.family.clone(),
+        along: setting.along.clone(),
         words: setting.words.clone(),
         points: last.map_or(0, |run| run.points),
         steps: last.map_or(0, |run| run.steps),
@@ -221,6 +224,7 @@ pub(crate) mod tests {
             grid: 0,
             values: vec![k.to_string()],
             family: "one".to_owned(),
+            along: format!("1/{k}"),
             words: format!("setting {k}"),
             points: 25,
             steps: 100,

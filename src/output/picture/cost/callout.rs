@@ -7,61 +7,78 @@ use super::super::colour::Rgb;
 use super::super::frame::LEGEND;
 use super::super::text::{Anchor, Direction, Text};
 use super::super::ticks::short;
-use super::plot::{Plot, dashed};
+use super::plot::{BESIDE, Plot, dashed};
 
 /// Where a callout begins, right of the frame, and how high a line of it is, pixels.
 const START: f64 = 40.0;
 const ROW: f64 = 1.35 * LEGEND;
+/// Room for a callout's letter and sign.
+const INDENT: f64 = 24.0;
 
 struct Callout {
+    row: Option<usize>,
     lines: Vec<String>,
     /// The middle of its first line, pixels from the top.
     y: f64,
-    /// Of its guide.
+    /// Of its guide; of several, the lowest.
     guide: Option<f64>,
 }
 
 /// `right` is the edge of the figure, pixels.
 pub fn draw(canvas: &mut Canvas, text: &Text, plot: &Plot<'_>, right: f64) {
-    let width = right - plot.frame.high.x - START;
-    let mut rings: Vec<(usize, String)> = Vec::new();
-    let mut callouts = Vec::new();
-    for (&target, letter) in plot.table.targets.iter().zip('A'..='Z') {
-        let guide = plot.guide(target);
-        let percent = format!("{}%", short(100.0 * target, 3));
-        let Some(row) = plot.table.cheapest(target) else {
-            callouts.push(Callout { lines: vec![format!("{percent}: none reaches it")], y: 0.0, guide });
-            continue;
-        };
-        match rings.iter_mut().find(|(known, _)| *known == row) {
-            Some((_, letters)) => letters.push(letter),
-            None => rings.push((row, letter.to_string())),
-        }
-        let Some((error, seconds)) = plot.table.place(&plot.table.rows[row]) else { continue };
-        let mut lines = vec![format!("{letter}  {percent} for {} s", short(seconds.median, 2))];
-        let words = plot.table.in_words(&plot.table.rows[row]);
-        lines.extend(text.wrap(&words, LEGEND, width));
-        lines.push(format!("error {}%", short(100.0 * error, 2)));
-        callouts.push(Callout { lines, y: 0.0, guide });
-    }
+    let left = plot.frame.high.x + START;
+    let mut callouts = callouts(text, plot, right - left);
     stack(&mut callouts, plot.frame.low.y, plot.frame.high.y);
+    let marks: Vec<DVec2> = (0..plot.table.rows.len()).filter_map(|row| plot.mark(row)).collect();
+    let mut letters = 'A'..='Z';
     for callout in &callouts {
-        let at = DVec2::new(plot.frame.high.x + START, callout.y);
+        let at = DVec2::new(left, callout.y);
         if let Some(guide) = callout.guide {
-            let edge = DVec2::new(plot.frame.high.x, guide);
-            dashed(canvas, edge, at - 8.0 * DVec2::X);
+            dashed(canvas, DVec2::new(plot.frame.high.x, guide), at - 8.0 * DVec2::X);
         }
         for (k, line) in callout.lines.iter().enumerate() {
-            let at = at + k as f64 * ROW * DVec2::Y;
+            let at = at + DVec2::new(if callout.row.is_some() { INDENT } else { 0.0 }, k as f64 * ROW);
             text.draw(canvas, line, at, LEGEND, Anchor::Start, Direction::Rightwards);
         }
-    }
-    let marks: Vec<DVec2> = (0..plot.table.rows.len()).filter_map(|row| plot.mark(row)).collect();
-    for (row, letters) in rings {
+        let Some(row) = callout.row else { continue };
+        let letter = letters.next().unwrap_or('Z').to_string();
+        text.draw(canvas, &letter, at, LEGEND, Anchor::Start, Direction::Rightwards);
+        if let Some(group) = plot.groups.iter().find(|group| group.lines.iter().flatten().any(|known| *known == row)) {
+            group.sign.draw(canvas, at + DVec2::new(6.0, ROW));
+        }
         if let Some(at) = plot.mark(row) {
-            ring(canvas, text, plot, at, &letters, &marks);
+            ring(canvas, text, plot, at, &letter, &marks);
         }
     }
+}
+
+/// One for each error asked for; those with the same cheapest setting share theirs.
+fn callouts(text: &Text, plot: &Plot<'_>, width: f64) -> Vec<Callout> {
+    let percent = |value: f64, digits| format!("{}%", short(100.0 * value, digits));
+    let mut shared: Vec<(Option<usize>, Vec<f64>)> = Vec::new();
+    for &target in &plot.table.targets {
+        let row = plot.table.cheapest(target);
+        match shared.last_mut() {
+            Some((known, targets)) if *known == row => targets.push(target),
+            _ => shared.push((row, vec![target])),
+        }
+    }
+    let callout = |(row, targets): (Option<usize>, Vec<f64>)| {
+        let guide = targets.iter().rev().find_map(|&target| plot.guide(target));
+        let targets = targets.iter().map(|&target| percent(target, 3)).collect::<Vec<_>>().join(", ");
+        let found = row.map(|row| &plot.table.rows[row]).and_then(|row| Some((row, plot.table.place(row)?)));
+        let lines = match found {
+            None => text.wrap(&format!("{targets}: no setting reaches it"), LEGEND, width),
+            Some((row, (error, seconds))) => {
+                let mut lines = vec![format!("{targets} in {} s", short(seconds.median, 2))];
+                lines.extend(text.wrap(&plot.table.in_words(row), LEGEND, width - INDENT));
+                lines.push(format!("error {}", percent(error, 2)));
+                lines
+            }
+        };
+        Callout { row, lines, y: 0.0, guide }
+    };
+    shared.into_iter().map(callout).collect()
 }
 
 /// Puts each callout beside its guide, or as near as those above and below it and the ends of the plot allow.
@@ -88,7 +105,8 @@ fn ring(canvas: &mut Canvas, text: &Text, plot: &Plot<'_>, at: DVec2, letters: &
     let places = (0..16)
         .map(|k| at + (25.0 + 0.5 * size.x) * DVec2::from_angle((f64::from(k) - 3.0) * std::f64::consts::TAU / 16.0));
     let room = |place: &DVec2| {
-        let nearest = marks.iter().map(|mark| mark.distance(*place)).fold(f64::INFINITY, f64::min).min(40.0);
+        let name = at + BESIDE - 12.0 * DVec2::X;
+        let nearest = marks.iter().chain([&name]).map(|mark| mark.distance(*place)).fold(40.0, f64::min);
         let inside = place.cmpgt(plot.frame.low + 14.0).all() && place.cmplt(plot.frame.high - 14.0).all();
         if inside { nearest } else { nearest - 1000.0 }
     };

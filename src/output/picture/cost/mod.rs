@@ -48,6 +48,7 @@ struct Panel {
 
 fn canvas(text: &Text, table: &Table) -> Canvas {
     let axes = Axes::new(table);
+    let small = axes.small(table);
     let left = EDGE + axes.error.left_room(text);
     let mut y = title_height(text, &table.title, WIDTH);
     let mut panels = Vec::new();
@@ -72,7 +73,7 @@ fn canvas(text: &Text, table: &Table) -> Canvas {
     let mut canvas = Canvas::new(WIDTH as u32, (y + notes.len() as f64 * ROW + EDGE).ceil() as u32);
     draw_title(&mut canvas, text, &table.title, WIDTH);
     for (index, panel) in panels.iter().enumerate() {
-        let plot = panel.draw(&mut canvas, text, table, &axes);
+        let plot = panel.draw(&mut canvas, text, table, if index == 0 { &axes } else { &small });
         if index == 0 {
             callout::draw(&mut canvas, text, &plot, WIDTH - EDGE);
         }
@@ -97,8 +98,9 @@ fn place(panels: &mut Vec<Panel>, text: &Text, panel: Panel, y: f64) -> f64 {
 impl Panel {
     /// As many columns in the legend as fit beside each other.
     fn with_columns(mut self, text: &Text) -> Self {
-        let width = self.legend_width(text);
-        self.columns = ((self.size.x / width) as usize).clamp(1, self.groups.len().max(1));
+        // Below the callouts there is room as well.
+        let room = if self.heading.is_some() { self.size.x } else { self.size.x + CALLOUTS - EDGE };
+        self.columns = ((room / self.legend_width(text)) as usize).clamp(1, self.groups.len().max(1));
         self
     }
 
@@ -114,8 +116,10 @@ impl Panel {
             low.y += (1.9 * LABEL).round();
         }
         let frame = Frame { low, high: (low + self.size).round(), x: axes.seconds.clone(), y: axes.error.clone() };
-        let plot = Plot { table, frame, groups: &self.groups };
-        plot.draw(canvas, text, if self.heading.is_some() || table.grids.len() == 1 { 2.4 } else { 1.2 });
+        // Of several grids the first plot shows all: too many lines.
+        let lines = self.heading.is_some() || table.grids.len() == 1;
+        let plot = Plot { table, frame, groups: &self.groups, lines };
+        plot.draw(canvas, text);
         let column = self.legend_width(text);
         for (k, group) in self.groups.iter().enumerate() {
             let (row, along) = (k / self.columns, k % self.columns);
@@ -138,6 +142,11 @@ fn by_family(table: &Table, grid: usize) -> Vec<Group> {
                 let sign = Sign::new(groups.len());
                 groups.push(Group { sign, name: row.family.clone(), lines: vec![vec![index]] });
             }
+        }
+    }
+    for group in &mut groups {
+        if group.lines[0].iter().all(|&row| table.place(&table.rows[row]).is_none()) {
+            group.name += " (none to show)";
         }
     }
     groups
@@ -164,4 +173,58 @@ fn notes(text: &Text, table: &Table) -> Vec<String> {
     }
     notes.push(format!("{}. Stillpoint {}.", table.ran_on(), table.version));
     notes.iter().flat_map(|note| text.wrap(note, LEGEND, WIDTH - 260.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::table_of;
+
+    const RESULTS: [(Option<f64>, f64); 5] =
+        [(Some(0.04), 0.25), (Some(0.012), 1.0), (Some(0.003), 4.0), (None, 9.0), (Some(0.2), 3.0)];
+
+    fn drawn(table: &Table) -> (Vec<u8>, (u32, u32)) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cost.png");
+        draw_cost(&path, table).unwrap();
+        let image = image::ImageReader::open(&path).unwrap().decode().unwrap();
+        (std::fs::read(&path).unwrap(), (image.width(), image.height()))
+    }
+
+    #[test]
+    fn the_picture_shows_errors_spreads_targets_and_machine() {
+        let table = table_of(&RESULTS);
+        let first = drawn(&table).0;
+        assert_eq!(first, drawn(&table).0, "the same table gives the same picture");
+        let changed = |change: &dyn Fn(&mut Table)| {
+            let mut other = table.clone();
+            change(&mut other);
+            drawn(&other).0 != first
+        };
+        assert!(changed(&|table| table.rows[4].error = Some(0.1)));
+        assert!(changed(&|table| table.rows[4].cpu.most = 3.7));
+        assert!(changed(&|table| table.targets = vec![0.05]));
+        assert!(changed(&|table| table.machine = "Another".to_owned()));
+        assert!(changed(&|table| table.rows[2].family = "two".to_owned()));
+        assert!(!changed(&|table| table.rows[4].wall.most = 11.0), "the other clock is not shown");
+    }
+
+    #[test]
+    fn each_of_several_grids_has_a_plot_of_its_own() {
+        let mut table = table_of(&RESULTS);
+        let (_, (width, height)) = drawn(&table);
+        table.grids.push("more".to_owned());
+        table.rows[3].grid = 1;
+        table.rows[4].grid = 1;
+        let (_, (same, higher)) = drawn(&table);
+        assert!(same == width && f64::from(higher) > f64::from(height) + OTHER, "{height}, then {higher}");
+    }
+
+    #[test]
+    fn nothing_to_show_is_still_a_picture() {
+        for results in [&[][..], &[(None, 1.0)], &[(Some(0.0), 1.0)], &[(Some(1e-12), 1e-3)], &[(Some(0.3), 1e6)]] {
+            let (_, (width, height)) = drawn(&table_of(results));
+            assert!(width == 1500 && (700..1400).contains(&height), "{results:?}: {width} x {height}");
+        }
+    }
 }

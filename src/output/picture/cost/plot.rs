@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::super::canvas::Canvas;
 use super::super::colour::Rgb;
 use super::super::frame::{Axis, Frame};
-use super::super::text::Text;
+use super::super::text::{Anchor, Direction, Text};
 use super::sign::Sign;
 use crate::study::{Spread, Table};
 
@@ -14,6 +14,11 @@ const FRONT: Rgb = Rgb([253, 231, 189]);
 const GUIDE: Rgb = Rgb([120; 3]);
 const MINOR: Rgb = Rgb([244; 3]);
 const OTHER: Rgb = Rgb([205; 3]);
+/// Size of the names of marks, pixels per em, and where they end, from the mark.
+const NAME: f64 = 15.0;
+pub const BESIDE: DVec2 = DVec2::new(-13.0, 17.0);
+/// Width of the front's band, pixels.
+const BAND: f64 = 13.0;
 
 /// Settings that belong together.
 #[derive(Debug, Clone)]
@@ -50,6 +55,15 @@ impl Axes {
             error: Axis::logarithmic(100.0 * least / 1.6, 100.0 * most * 1.6, &table.quantity(), "%"),
         }
     }
+
+    /// The same in few words, for the plots below.
+    pub fn small(&self, table: &Table) -> Self {
+        let (seconds, error) = (format!("{}, s", table.seconds.name()), "error".to_owned());
+        Self {
+            seconds: Axis { label: seconds, ..self.seconds.clone() },
+            error: Axis { label: error, ..self.error.clone() },
+        }
+    }
 }
 
 /// A plot and what it shows.
@@ -57,6 +71,8 @@ pub struct Plot<'a> {
     pub table: &'a Table,
     pub frame: Frame,
     pub groups: &'a [Group],
+    /// Whether the marks of a line are joined.
+    pub lines: bool,
 }
 
 impl Plot<'_> {
@@ -75,7 +91,7 @@ impl Plot<'_> {
         (self.frame.low.y..=self.frame.high.y).contains(&y).then_some(y)
     }
 
-    pub fn draw(&self, canvas: &mut Canvas, text: &Text, width: f64) {
+    pub fn draw(&self, canvas: &mut Canvas, text: &Text) {
         self.draw_grid(canvas);
         self.draw_front(canvas);
         for &target in &self.table.targets {
@@ -90,16 +106,49 @@ impl Plot<'_> {
             }
         }
         for group in self.groups {
-            for line in &group.lines {
+            for line in group.lines.iter().filter(|_| self.lines) {
                 let places: Vec<DVec2> = line.iter().filter_map(|&row| self.mark(row)).collect();
-                canvas.polyline(&places, width, group.sign.colour.paler(0.25));
-                line.iter().for_each(|&row| self.draw_spread(canvas, row, group.sign.colour));
+                canvas.polyline(&places, 2.4, group.sign.colour.paler(0.25));
             }
+            group.lines.iter().flatten().for_each(|&row| self.draw_spread(canvas, row, group.sign.colour));
         }
         for group in self.groups {
             group.lines.iter().flatten().filter_map(|&row| self.mark(row)).for_each(|at| group.sign.draw(canvas, at));
         }
+        if self.lines {
+            self.draw_names(canvas, text);
+        }
         self.frame.draw(canvas, text);
+    }
+
+    /// Says beside the marks that none of the same plot beats where on their line they stand: below and left of those there
+    /// is nothing else.
+    fn draw_names(&self, canvas: &mut Canvas, text: &Text) {
+        let mut rows: Vec<(usize, DVec2)> = self
+            .groups
+            .iter()
+            .flat_map(|group| group.lines.concat())
+            .filter_map(|row| Some((row, self.mark(row)?)))
+            .collect();
+        rows.sort_by(|a, b| a.1.x.total_cmp(&b.1.x).then(b.1.y.total_cmp(&a.1.y)));
+        let mut lowest = f64::NEG_INFINITY;
+        let mut taken: Vec<(DVec2, DVec2)> = Vec::new();
+        for &(row, at) in &rows {
+            if at.y <= lowest {
+                continue;
+            }
+            lowest = at.y;
+            let name = &self.table.rows[row].along;
+            let end = at + BESIDE;
+            let (low, high) = (end - DVec2::new(text.width(name, NAME), 0.5 * NAME), end + 0.5 * NAME * DVec2::Y);
+            let on_mark = rows.iter().any(|(_, mark)| mark.distance(mark.clamp(low, high)) < 13.0);
+            let on_name = taken.iter().any(|(other, to)| low.cmplt(*to).all() && other.cmplt(high).all());
+            let inside = low.cmpgt(self.frame.low).all() && high.cmplt(self.frame.high).all();
+            if inside && !on_mark && !on_name {
+                text.draw(canvas, name, end, NAME, Anchor::End, Direction::Rightwards);
+                taken.push((low, high));
+            }
+        }
     }
 
     fn draw_grid(&self, canvas: &mut Canvas) {
@@ -119,12 +168,14 @@ impl Plot<'_> {
     fn draw_front(&self, canvas: &mut Canvas) {
         let places: Vec<DVec2> = self.table.front().into_iter().filter_map(|row| self.mark(row)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return };
-        let mut stairs = vec![DVec2::new(first.x, self.frame.low.y), *first];
+        // Its ends are round.
+        let end = 0.5 * BAND;
+        let mut stairs = vec![DVec2::new(first.x, self.frame.low.y + end), *first];
         for pair in places.windows(2) {
             stairs.extend([DVec2::new(pair[1].x, pair[0].y), pair[1]]);
         }
-        stairs.push(DVec2::new(self.frame.high.x, last.y));
-        canvas.polyline(&stairs, 13.0, FRONT);
+        stairs.push(DVec2::new(self.frame.high.x - end, last.y));
+        canvas.polyline(&stairs, BAND, FRONT);
     }
 
     /// From the fastest to the slowest of the repeated runs.
