@@ -1,15 +1,10 @@
 // Correction by the fitted gradient.
 //
 // Continuous: u' = u* - (dt / rho) grad p.
-// Discrete:   grad p = (a1, a2) / r_e of the fit (2.5), (2.6) of the paper. Units: m/s.
+// Discrete:   grad p = sum_j g_ij (p_j - p_i), the rows of `assemble_gradient`. Units: m/s.
 
-#import fit
-
-alias value = real;
-
-fn field(i: u32) -> value {
-    return pressure[i];
-}
+#import points
+#import gradient
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -17,6 +12,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if i >= INTERIOR {
         return;
     }
-    let a = fit(i);
-    projected[i] += -clock[CLOCK_CORRECTION] * a.per * vector(a.a1, a.a2);
+    let own = pressure[i];
+    let first = at(i, 0u, CAPACITY);
+    let count = min(neighbour_count[i], CAPACITY);
+    var sum = vector();
+    for (var slot = 0u; slot < count; slot++) {
+        sum += (pressure[neighbours[first + slot * BLOCK]] - own) * gradient_factors(i, slot);
+    }
+    projected[i] += -clock[CLOCK_CORRECTION] * sum;
 }

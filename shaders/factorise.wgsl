@@ -1,4 +1,4 @@
-// The 5x5 normal matrix of every point, factorised: (2.5) of the paper.
+// The normal matrix of every point, factorised: (2.5) of the paper.
 //
 // A point whose least pivot falls below the threshold is marked FAILED, and left to `widen_support`.
 
@@ -11,6 +11,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let f = factor_of(moments_of(i, support[i], neighbour_count[i]));
-    store_factor(i, f);
-    rung[i] = select(RUNG_FAILED, 0u, f.least > PIVOT_THRESHOLD);
+    store_factor(i, f, ORDER);
+    rung[i] = select(RUNG_FAILED, 0u, least_pivot(f, ORDER) > PIVOT_THRESHOLD);
 }

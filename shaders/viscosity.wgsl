@@ -1,22 +1,22 @@
 // Viscosity, added to the kick.
 //
 // Continuous: du/dt = nu lap u.
-// Discrete:   kick += dt nu 2 (a3 + a5) / r_e^2 of the fit (2.5), (2.6) of the paper. Units: m/s.
+// Discrete:   kick += dt nu sum_j l_ij (u_j - u_i), the rows of `assemble_laplacian`. Units: m/s.
 
-#import fit
-
-alias value = vector;
-
-fn field(i: u32) -> value {
-    return diffused[i];
-}
+#import points
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let i = index_of(group, local);
-    if i < FORCED {
-        let a = fit(i);
-        let scale = real(2.0) * clock[CLOCK_DIFFUSION] * a.per * a.per;
-        kick[i] += scale * (a.a3 + a.a5);
+    if i >= FORCED {
+        return;
     }
+    let own = diffused[i];
+    let first = at(i, 0u, CAPACITY);
+    let last = first + min(neighbour_count[i], CAPACITY) * BLOCK;
+    var sum = vector();
+    for (var slot = first; slot < last; slot += BLOCK) {
+        sum += laplacian_row[slot] * (diffused[neighbours[slot]] - own);
+    }
+    kick[i] += clock[CLOCK_DIFFUSION] * sum;
 }

@@ -1,5 +1,6 @@
-// Points whose normal matrix failed the pivot test step down the ladder: a wider radius, up to the cap; then the linear
-// fit; then the nearest value, which is no fit at all. Coefficients left out have zeros in their rows of the factor.
+// Points whose normal matrix failed the pivot test step down the ladder: a wider radius, up to the cap; then fits of lower
+// orders, down to the linear one; then the nearest value, which is no fit at all. Coefficients left out have zeros in their
+// rows of the factor.
 
 #import normal_matrix
 #import search
@@ -10,51 +11,38 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if i >= PADDED || rung[i] != RUNG_FAILED {
         return;
     }
-    var f = Factor();
     if i >= POINTS {
         rung[i] = 0u;
-        store_factor(i, f);
+        store_factor(i, Factor(), 0u);
         return;
     }
     let radius = support[i];
     var wider = WIDER;
-    var reached = radius;
-    var step = 0u;
-    var count = 0u;
     for (var k = 0u; k < WIDER_STEPS; k++) {
-        reached = radius * wider[k];
-        count = search(i, reached);
+        let reached = radius * wider[k];
+        let count = search(i, reached);
         if count > CAPACITY {
             break;
         }
-        f = factor_of(moments_of(i, reached, count));
-        if f.least > PIVOT_THRESHOLD {
-            step = k + 1u;
-            break;
+        let f = factor_of(moments_of(i, reached, count));
+        if least_pivot(f, ORDER) > PIVOT_THRESHOLD {
+            keep(i, f, ORDER, reached, count, k + 1u);
+            return;
         }
     }
-    if step == 0u {
-        reached = radius;
-        count = min(search(i, radius), CAPACITY);
-        let m = moments_of(i, radius, count);
-        // The factor of a singular matrix is rubbish; its second pivot tells.
-        var second = real(0.0);
-        if m.xx > real(0.0) {
-            second = m.yy - m.xy * m.xy / m.xx;
-        }
-        f = Factor();
-        if m.xx > real(0.0) && second > PIVOT_THRESHOLD * m.yy {
-            step = RUNG_LINEAR;
-            f.l00 = reciprocal_root(m.xx);
-            f.l10 = m.xy * f.l00;
-            f.l11 = reciprocal_root(m.yy - f.l10 * f.l10);
-        } else {
-            step = RUNG_NEAREST;
-        }
+    let count = min(search(i, radius), CAPACITY);
+    let f = factor_of(moments_of(i, radius, count));
+    var order = ORDER - 1u;
+    while order > 0u && !(least_pivot(f, order) > PIVOT_THRESHOLD) {
+        order--;
     }
-    support[i] = reached;
+    keep(i, f, order, radius, count, select(RUNG_NEAREST, RUNG_LINEAR + 1u - order, order > 0u));
+}
+
+fn keep(i: u32, f: Factor, order: u32, radius: real, count: u32, step: u32) {
+    support[i] = radius;
     rung[i] = step;
     neighbour_count[i] = count;
     pad_slots(i, count, i);
-    store_factor(i, f);
+    store_factor(i, f, order);
 }

@@ -3,10 +3,12 @@
 pub mod case;
 pub mod cli;
 pub mod cloud;
+pub mod comparison;
 pub mod cpu;
 pub mod direct;
 pub mod engine;
 pub mod gpu;
+pub mod known;
 pub mod measure;
 pub mod output;
 pub mod run;

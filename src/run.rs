@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::case::{Case, Profile, ReferenceError};
+use crate::case::{Case, Problem, Profile, ReferenceError};
+use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
+use crate::known::Known;
 use crate::measure::evaluate;
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, OutputError, RunFolder, Seconds, StopReason, Summary,
@@ -24,6 +26,8 @@ pub enum RunError {
     Output(#[from] OutputError),
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
 }
 
 /// A run that is over: what its summary says, and the line that tells of trouble.
@@ -44,7 +48,9 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Report, RunError> {
     let prepared = Instant::now();
-    let mut writer = Recorder { rows: DiagnosticsWriter::create(&folder.diagnostics())?, observer, failed: None };
+    // Without time there is nothing to report on the way.
+    let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
+    let mut writer = Recorder { rows, observer, failed: None };
     let outcome = simulation::simulate(scene, engine, &mut writer)?;
     if let Some(error) = writer.failed {
         return Err(error.into());
@@ -56,7 +62,7 @@ pub fn run(
     output::points::write(&folder.points(), snapshot)?;
     output::vtu::write(&folder.vtu(), snapshot)?;
     if scene.case.output.pictures {
-        output::picture::draw_all(folder, &scene.case, snapshot, &profiles)?;
+        draw(folder, &scene.case, snapshot, &profiles)?;
     }
     let mut summary = summarise(case_path, scene, &info, &outcome, &profiles)?;
     summary.seconds.output = began.elapsed().as_secs_f64();
@@ -70,9 +76,27 @@ pub fn run(
 /// Draws the pictures of a run that is over from its files.
 pub fn render(folder: &RunFolder) -> Result<Vec<PathBuf>, RunError> {
     let summary = Summary::read(&folder.summary())?;
-    let snapshot: Snapshot = output::points::read(&folder.points(), summary.time)?;
-    let profiles = profiles(&summary.case)?;
-    Ok(output::picture::draw_all(folder, &summary.case, &snapshot, &profiles)?)
+    let snapshot = match summary.case.problem() {
+        // Drawn from the case: its figures show what other operators give as well.
+        Problem::Derivatives(_) => Snapshot::default(),
+        _ => output::points::read(&folder.points(), summary.time)?,
+    };
+    draw(folder, &summary.case, &snapshot, &profiles(&summary.case)?)
+}
+
+/// The pictures of the case's problem.
+fn draw(
+    folder: &RunFolder,
+    case: &Case,
+    snapshot: &Snapshot,
+    profiles: &BTreeMap<String, Profile>,
+) -> Result<Vec<PathBuf>, RunError> {
+    match (case.problem(), Known::of(case)) {
+        (Problem::Derivatives(_), Some(known)) => {
+            Ok(output::picture::draw_comparison(folder, case, &known, &comparison::panels(case)?)?)
+        }
+        _ => Ok(output::picture::draw_all(folder, case, snapshot, profiles)?),
+    }
 }
 
 /// The published profiles of a case, by the name of their expectation.
@@ -143,14 +167,14 @@ fn trouble(outcome: &Outcome) -> Option<String> {
 
 /// Writes every row before it shows it.
 struct Recorder<'a> {
-    rows: DiagnosticsWriter,
+    rows: Option<DiagnosticsWriter>,
     observer: &'a mut dyn Observer,
     failed: Option<OutputError>,
 }
 
 impl Observer for Recorder<'_> {
     fn report(&mut self, row: &Diagnostics) {
-        if let Err(error) = self.rows.append(row) {
+        if let Some(Err(error)) = self.rows.as_mut().map(|rows| rows.append(row)) {
             self.failed.get_or_insert(error);
         }
         self.observer.report(row);

@@ -3,10 +3,14 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid};
+use crate::cpu::operations::integral::Lattice;
+use crate::cpu::operations::moments;
+use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
+use crate::known::Known;
 use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
 
 /// Everything about a run that does not change while it runs, in f64, on the host.
@@ -27,12 +31,16 @@ pub struct Constants {
     /// `r_e`, m.
     pub radius: f64,
     pub weight: Weight,
+    /// Degree of the fitted polynomial, 1 to 4.
+    pub order: usize,
     /// Cells of the neighbour search.
     pub grid: Grid,
     /// Width and height of the rectangle, m.
     pub size: DVec2,
     /// `l0`, m.
     pub spacing: f64,
+    /// What the integral form divides by.
+    pub lattice: Lattice,
     /// kg/m^3
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
@@ -40,6 +48,8 @@ pub struct Constants {
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
+    /// Rounding units of the diagonal's product below which no pressure residual falls.
+    pub floor: f64,
     /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
     pub shift: f64,
 }
@@ -50,9 +60,9 @@ pub enum SceneError {
     #[error(transparent)]
     Cloud(#[from] CloudError),
     #[error(
-        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point 5"
+        "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point {needed}"
     )]
-    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize },
+    TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize, needed: usize },
 }
 
 /// Two points nearer than this, in spacings, coincide: no derivative exists between them.
@@ -67,9 +77,9 @@ impl Scene {
     /// The same on points laid out by the caller.
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
         let plan = Plan::new(case);
-        let radius = case.method.radius * cloud.spacing;
+        let radius = case.method.radius() * cloud.spacing;
         let grid = Grid::new(cloud.size, radius);
-        let most = survey(&cloud, radius, case.method.radius)?;
+        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
@@ -80,18 +90,22 @@ impl Scene {
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             cells: grid.count(),
+            coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let constants = Constants {
             radius,
             weight: case.method.weight,
+            order: case.method.order,
             grid,
             size: cloud.size,
             spacing: cloud.spacing,
+            lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             tolerance: pressure.tolerance,
             max_iterations: pressure.max_iterations,
+            floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
         Ok(Self { case: case.clone(), cloud, plan, sizes, constants, cells })
@@ -140,9 +154,27 @@ impl Scene {
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
         }
+        data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
         data
+    }
+
+    /// A known field, or the source that makes the pressure equation give it.
+    fn known(&self, volume: &[f64]) -> Option<(Buffer, Data)> {
+        let (known, cloud) = (Known::of(&self.case)?, &self.cloud);
+        if !matches!(self.case.problem(), Problem::Poisson(_)) {
+            let values: Vec<f64> = cloud.position.iter().map(|&place| known.value(place)).collect();
+            return Some((Buffer::Field, self.scalars(&values, 0.0)));
+        }
+        // No slope across walls: nothing stands in their rows.
+        let source = |point: usize| match self.cells {
+            Some(_) => -volume[point] * known.laplacian(cloud.position[point]),
+            None if point < cloud.interior => known.laplacian(cloud.position[point]),
+            None => 0.0,
+        };
+        let source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        Some((Buffer::Source, self.scalars(&source, 0.0)))
     }
 
     fn faces(&self, cells: &Cells) -> Vec<(Buffer, Data)> {
@@ -201,7 +233,7 @@ impl Scene {
 }
 
 /// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError> {
+fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
     let grid = grid::Grid::new(&cloud.position, cloud.size, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
@@ -215,8 +247,8 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64) -> Result<usize, SceneError
                 return Err(CloudError::Coincident { first, second, x: own.x, y: own.y, least }.into());
             }
         }
-        if found < 5 {
-            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found });
+        if found < needed {
+            return Err(SceneError::TooFewNeighbours { radius: spacings, point, x: own.x, y: own.y, found, needed });
         }
         Ok(found)
     };

@@ -8,8 +8,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
+use crate::known::Known;
 use crate::scene::Scene;
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
 
 /// One row of `diagnostics.csv`.
@@ -75,7 +76,7 @@ pub struct Outcome {
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
     pub iterations: u64,
-    /// Points whose fit was widened, is linear, is the nearest value.
+    /// Points whose fit was widened, is of a lower order, is the nearest value.
     pub ladder: [u64; 3],
     /// Wall-clock time of the setup operations, and of the steps with their reports.
     pub setup: Duration,
@@ -132,6 +133,9 @@ impl Run<'_> {
         self.limit = self.viscous_limit()?;
         let ladder = self.ladder()?;
         let setup = started.elapsed();
+        if !self.scene.plan.flows {
+            return self.once(ladder, setup);
+        }
 
         let started = Instant::now();
         let time = &self.scene.case.time;
@@ -205,6 +209,53 @@ impl Run<'_> {
         Ok(Outcome { stop, steps: step, snapshot: good, fallbacks, iterations, ladder, setup, stepping, warnings })
     }
 
+    /// A problem without time: its operations, once.
+    fn once(mut self, ladder: [u64; 3], setup: Duration) -> Result<Outcome, SimulationError> {
+        let started = Instant::now();
+        let clock = self.unit_clock();
+        for &operation in &self.scene.plan.kick {
+            self.engine.apply(operation, &clock)?;
+        }
+        let stepping = started.elapsed();
+        let iterations = u64::from(self.engine.solve_info().iterations);
+        let snapshot = match self.scene.plan.form {
+            Some(_) => self.snapshot(0.0)?,
+            None => self.derivatives()?,
+        };
+        let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
+        let warnings = self.warnings;
+        Ok(Outcome { stop: Stop::End, steps: 0, snapshot, fallbacks, iterations, ladder, setup, stepping, warnings })
+    }
+
+    /// The clock by which the tolerance of a pressure solve is relative to the root mean square of its source.
+    fn unit_clock(&self) -> Clock {
+        let Some(known) = Known::of(&self.scene.case) else { return self.scene.clock(1.0) };
+        let cloud = &self.scene.cloud;
+        let square: f64 = cloud.position.iter().map(|&place| known.laplacian(place).powi(2)).sum();
+        let rms = (square / cloud.len() as f64).sqrt();
+        self.scene.clock((self.scene.constants.density / rms).sqrt())
+    }
+
+    /// What the operators made of a known field.
+    fn derivatives(&mut self) -> Result<Snapshot, EngineError> {
+        let points = self.scene.sizes.points;
+        let mut read = |buffer: Buffer| match self.engine.read(buffer) {
+            Ok(Data::Real(values)) => Ok(values),
+            Ok(Data::Index(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
+            Err(error) => Err(error),
+        };
+        let mut value = read(Buffer::FieldAverage)?;
+        if value.is_empty() {
+            value = read(Buffer::Field)?;
+        }
+        let mut laplacian = read(Buffer::FieldLaplacian)?;
+        let gradient = read(Buffer::FieldGradient)?.chunks_exact(2).take(points).map(DVec2::from_slice).collect();
+        value.truncate(points);
+        laplacian.truncate(points);
+        let derivatives = Some(Derivatives { value, gradient, laplacian });
+        Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
+    }
+
     /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.
     fn step(&mut self, speed: f64, now: f64) -> Result<f64, SimulationError> {
         let time = &self.scene.case.time;
@@ -272,11 +323,14 @@ impl Run<'_> {
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
         let mut tally = [0; 3];
-        if let Data::Index(rungs) = self.engine.read(Buffer::Rung(Points::Standing))? {
+        let rung = Buffer::Rung(Points::Standing);
+        if self.scene.plan.buffers().contains(&rung)
+            && let Data::Index(rungs) = self.engine.read(rung)?
+        {
             for &rung in rungs[..self.scene.sizes.points].iter().filter(|&&rung| rung > 0) {
                 tally[match rung {
-                    Rung::LINEAR => 1,
                     Rung::NEAREST => 2,
+                    rung if rung > Rung::WIDER.len() as u32 => 1,
                     _ => 0,
                 }] += 1;
             }
@@ -287,8 +341,10 @@ impl Run<'_> {
     /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
     fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
         let points = self.scene.sizes.points;
-        let mut velocity = Vec::new();
-        if let Data::Real(values) = self.engine.read(Buffer::Projected)? {
+        let mut velocity = vec![DVec2::ZERO; points];
+        if self.scene.plan.flows
+            && let Data::Real(values) = self.engine.read(Buffer::Projected)?
+        {
             velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
         }
         let mut pressure = vec![0.0; points];
@@ -298,7 +354,7 @@ impl Run<'_> {
             let mean = values[..points].iter().sum::<f64>() / points as f64;
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure })
+        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
     }
 }
 

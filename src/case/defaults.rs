@@ -1,6 +1,6 @@
 //! What holds where a case leaves a key open and the answer depends on another key.
 
-use super::{Arrangement, Case, Cloud, Gradient, Pressure, PressureForm, Solver};
+use super::{Arrangement, Case, Cloud, Gradient, Method, Pressure, PressureForm, Solver};
 
 /// Largest displacement of a jittered point along each axis, in spacings.
 pub const DEFAULT_JITTER: f64 = 0.4;
@@ -8,6 +8,9 @@ pub const DEFAULT_JITTER: f64 = 0.4;
 pub const DEFAULT_MINIMUM_DISTANCE: f64 = 0.7;
 /// Seed of the jittered and random arrangements.
 pub const DEFAULT_SEED: u64 = 1;
+
+/// Radius of the neighbourhood of orders 1 to 4, in spacings: about twice as many neighbours as coefficients, walls cut half.
+pub const DEFAULT_RADIUS: [f64; 4] = [2.1, 2.6, 3.4, 4.2];
 
 impl Cloud {
     /// Largest displacement along each axis, in spacings; 0 unless jittered.
@@ -26,6 +29,13 @@ impl Cloud {
     /// The same seed gives the same points.
     pub fn seed(&self) -> u64 {
         self.seed.unwrap_or(DEFAULT_SEED)
+    }
+}
+
+impl Method {
+    /// Radius of the neighbourhood, in spacings.
+    pub fn radius(&self) -> f64 {
+        self.radius.unwrap_or(DEFAULT_RADIUS[self.order.clamp(1, 4) - 1])
     }
 }
 
@@ -57,6 +67,7 @@ impl Case {
         if cloud.arrangement == Arrangement::Random {
             cloud.minimum_distance = Some(cloud.minimum_distance());
         }
+        self.method.radius = Some(self.method.radius());
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.solver = Some(pressure.solver());
             if pressure.form == PressureForm::Conservative {

@@ -20,6 +20,8 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
+    ("method.operators", r#""interpolation" or "integral""#),
+    ("method.order", "1, 2, 3 or 4"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
@@ -35,6 +37,10 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("time.step", "a time above 0 and at most time.end, s"),
     ("time.steady", "a number above 0, m/s^2"),
     ("time.splitting", r#""reflection" or "projection""#),
+    ("derivatives", "a table with the key field"),
+    ("derivatives.field", r#""waves" or "cosines""#),
+    ("poisson", "a table with the key field"),
+    ("poisson.field", r#""waves" or "cosines""#),
     ("output.report_every", "a whole number from 1 to 4294967295"),
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),
@@ -112,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 11] = [
+        let tables: [(&str, &[&str]); 13] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("fluid", fields::<Fluid>()),
@@ -122,6 +128,8 @@ mod tests {
             ("effects.pressure", fields::<Pressure>()),
             ("effects.advection", fields::<Advection>()),
             ("time", fields::<Time>()),
+            ("derivatives", fields::<KnownField>()),
+            ("poisson", fields::<KnownField>()),
             ("output", fields::<Output>()),
             ("expect.*", fields::<Expectation>()),
         ];
@@ -143,9 +151,12 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 8] = [
+        let keys: [(&str, &[&str]); 11] = [
             ("cloud.arrangement", words::<Arrangement>()),
+            ("method.operators", words::<Operators>()),
             ("method.weight", words::<Weight>()),
+            ("derivatives.field", words::<Field>()),
+            ("poisson.field", words::<Field>()),
             ("effects.pressure.form", words::<PressureForm>()),
             ("effects.pressure.gradient", words::<Gradient>()),
             ("effects.pressure.solver", words::<Solver>()),

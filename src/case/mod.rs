@@ -15,7 +15,7 @@ mod reference;
 pub(crate) mod text;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
-pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_SEED};
+pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
@@ -41,7 +41,12 @@ pub struct Case {
     /// The physics of the scene: an effect whose table is absent adds no operation and no buffer.
     #[serde(default)]
     pub effects: Effects,
+    #[serde(default)]
     pub time: Time,
+    /// In place of a flow: derivatives of a known field, once.
+    pub derivatives: Option<KnownField>,
+    /// In place of a flow: the pressure equation with the source of a known field, once.
+    pub poisson: Option<KnownField>,
     #[serde(default)]
     pub output: Output,
     /// Published values that the run is held to, by name.
@@ -112,15 +117,28 @@ pub struct Wall {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Method {
-    /// Radius of the neighbourhood, `r_e`, in spacings.
-    pub radius: f64,
+    pub operators: Operators,
+    /// Degree of the polynomial that is fitted, 1 to 4; with 1 there are no second derivatives.
+    pub order: usize,
+    /// Radius of the neighbourhood, `r_e`, in spacings; where absent one that supports the order.
+    pub radius: Option<f64>,
     pub weight: Weight,
 }
 
 impl Default for Method {
     fn default() -> Self {
-        Self { radius: 2.6, weight: Weight::Smooth }
+        Self { operators: Operators::Interpolation, order: 2, radius: None, weight: Weight::Smooth }
     }
+}
+
+/// The two families of the paper's section 2.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Operators {
+    /// Least-squares fits, (2.5) and (2.6).
+    Interpolation,
+    /// Weighted means, (2.2) to (2.4): right on lattices alone.
+    Integral,
 }
 
 /// Weight of a neighbour at distance `r` in the least squares.
@@ -218,6 +236,43 @@ pub enum Remap {
     Forward,
 }
 
+/// A field whose value and derivatives are known everywhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnownField {
+    pub field: Field,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// `sin(2 pi x / width) cos(2 pi y / height)`: periodic.
+    Waves,
+    /// `cos(pi x / width) cos(pi y / height)`: no slope across the walls.
+    Cosines,
+}
+
+/// What a case computes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Problem {
+    /// A flow in time.
+    Flow,
+    /// Derivatives of a known field.
+    Derivatives(Field),
+    /// The pressure that a known field is.
+    Poisson(Field),
+}
+
+impl Case {
+    pub fn problem(&self) -> Problem {
+        match (&self.derivatives, &self.poisson) {
+            (Some(known), _) => Problem::Derivatives(known.field),
+            (None, Some(known)) => Problem::Poisson(known.field),
+            (None, None) => Problem::Flow,
+        }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
@@ -244,6 +299,13 @@ pub enum Splitting {
     Reflection,
     /// The paper's: forces of a whole step, then projection; first order.
     Projection,
+}
+
+/// No time: of a problem without.
+impl Default for Time {
+    fn default() -> Self {
+        Self { end: 0.0, courant: default_courant(), step: None, steady: None, splitting: Splitting::default() }
+    }
 }
 
 fn default_courant() -> f64 {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::case::{CaseError, ReferenceError};
+use crate::comparison::ComparisonError;
 use crate::engine::EngineError;
 use crate::output::OutputError;
 use crate::run::RunError;
@@ -47,6 +48,8 @@ pub enum CliError {
     #[error("{0}")]
     Diverged(String),
     #[error(transparent)]
+    Comparison(#[from] ComparisonError),
+    #[error(transparent)]
     Reference(#[from] ReferenceError),
     #[error("{failed} of {rows} expected values missed: {names}")]
     Missed { failed: usize, rows: usize, names: String },
@@ -74,6 +77,7 @@ impl CliError {
             | CliError::Simulation(_)
             | CliError::Engine(_)
             | CliError::Output(_)
+            | CliError::Comparison(_)
             | CliError::Diverged(_)
             | CliError::Missed { .. } => 1,
         }
@@ -86,6 +90,7 @@ impl From<RunError> for CliError {
             RunError::Simulation(error) => error.into(),
             RunError::Output(error) => error.into(),
             RunError::Reference(error) => error.into(),
+            RunError::Comparison(error) => error.into(),
         }
     }
 }

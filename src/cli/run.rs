@@ -8,6 +8,7 @@ use super::folder::output_folder;
 use super::interrupt::StopFlag;
 use super::progress::Progress;
 use super::{CliError, load, print};
+use crate::case::Problem;
 use crate::measure::ExpectationResult;
 use crate::output::{RunFolder, StopReason, Summary};
 use crate::run;
@@ -45,8 +46,12 @@ fn tell(summary: &Summary, folder: &RunFolder) -> Result<(), CliError> {
     };
     let adapter = summary.adapter.as_ref().map_or(String::new(), |adapter| format!(" on {}", adapter.name));
     print(format_args!("{}", summary.case.title))?;
+    let course = match summary.case.problem() {
+        Problem::Flow => format!(", {steps} steps to t = {time:.3} s ({why})"),
+        Problem::Derivatives(_) | Problem::Poisson(_) => String::new(),
+    };
     print(format_args!(
-        "{points} points, {steps} steps to t = {time:.3} s ({why}), {}{adapter} {}, {:.2} s stepping",
+        "{points} points{course}, {}{adapter} {}, {:.2} s stepping",
         summary.engine, summary.precision, seconds.stepping,
     ))?;
     for row in &summary.expect {

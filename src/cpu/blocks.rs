@@ -7,6 +7,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::cpu::real::{Pack, Real};
+
 pub use crate::step::BLOCK;
 
 /// Below this many points a loop runs on the calling thread: waking the others costs more than it saves.
@@ -29,6 +31,12 @@ pub fn padded(points: usize) -> usize {
 #[inline(always)]
 pub fn at(point: usize, slot: usize, slots: usize) -> usize {
     (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK
+}
+
+/// First points of the packs of a block that hold a point below `end`.
+#[inline(always)]
+pub fn packs<T: Real>(block: usize, end: usize) -> impl Iterator<Item = usize> {
+    (block * BLOCK..((block + 1) * BLOCK).min(end)).step_by(T::Pack::LANES)
 }
 
 /// Runs `body(block, values)` for every block of an array with `slots` entries a point.

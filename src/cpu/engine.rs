@@ -5,10 +5,12 @@ use std::time::Instant;
 
 use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces};
-use crate::cpu::operations::derivative::{self, Fits};
-use crate::cpu::operations::moments::WeightFunction;
+use crate::cpu::operations::derivative::{self, Gradient, Laplacian};
+use crate::cpu::operations::fits::{self, Fits};
+use crate::cpu::operations::integral::{self, Means};
 use crate::cpu::operations::neighbours::Search;
 use crate::cpu::operations::pressure::{self, Stop};
+use crate::cpu::operations::rows::{self, Lists};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick, measure, neighbours, remap};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
@@ -17,7 +19,7 @@ use crate::engine::{
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
-use crate::with_weight;
+use crate::with_order;
 
 /// Steps between two looks for numbers that are none.
 const WATCH_EVERY: u32 = 10;
@@ -51,20 +53,44 @@ impl<T: Real> CpuEngine<T> {
         for (buffer, data) in scene.initial() {
             fields.write(buffer, &data)?;
         }
-        let per_volume = reciprocals(fields.real(Buffer::Volume)?);
+        let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let (solve, spent) = (SolveInfo::default(), Spent::default());
         Ok(Self { scene, fields, per_volume, direct: None, solve, fallbacks: 0, spent })
     }
 
-    fn fits<'a, W: WeightFunction>(&'a self, points: Points, weight: W) -> Result<Fits<'a, T, W>, EngineError> {
+    fn fits<const N: usize, const F: usize>(&self, points: Points) -> Result<Fits<'_, T, N, F>, EngineError> {
         Ok(Fits {
             position: self.fields.real(Buffer::Position(points))?,
             support: self.fields.real(Buffer::Support(points))?,
+            lists: self.lists(points)?,
+            factor: self.fields.real(Buffer::Factor(points))?,
+            weight: self.scene.constants.weight,
+        })
+    }
+
+    fn lists(&self, points: Points) -> Result<Lists<'_>, EngineError> {
+        Ok(Lists {
             neighbours: self.fields.index(Buffer::Neighbours(points))?,
             count: self.fields.index(Buffer::NeighbourCount(points))?,
             capacity: self.scene.sizes.capacity,
-            factor: self.fields.real(Buffer::Factor(points))?,
-            weight,
+        })
+    }
+
+    fn laplacian(&self) -> Result<Laplacian<'_, T>, EngineError> {
+        Ok(Laplacian { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::LaplacianRow)? })
+    }
+
+    fn gradient(&self) -> Result<Gradient<'_, T>, EngineError> {
+        Ok(Gradient { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::GradientRow)? })
+    }
+
+    fn means(&self) -> Result<Means<'_, T>, EngineError> {
+        let points = Points::Standing;
+        Ok(Means {
+            position: self.fields.real(Buffer::Position(points))?,
+            support: self.fields.real(Buffer::Support(points))?,
+            lists: self.lists(points)?,
+            lattice: self.scene.constants.lattice,
         })
     }
 
@@ -132,13 +158,11 @@ impl<T: Real> CpuEngine<T> {
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
                 let mut rung = self.fields.take_index(Buffer::Rung(points))?;
-                with_weight!(constants.weight, weight => fit::factorise(
+                with_order!(constants.order, [N, F, M] => fit::factorise::<T, N, F, M>(
                     self.fields.real(Buffer::Position(points))?,
                     self.fields.real(Buffer::Support(points))?,
-                    self.fields.index(Buffer::Neighbours(points))?,
-                    self.fields.index(Buffer::NeighbourCount(points))?,
-                    sizes.capacity,
-                    weight,
+                    self.lists(points)?,
+                    constants.weight,
                     &mut factor,
                     &mut rung,
                 ));
@@ -151,10 +175,10 @@ impl<T: Real> CpuEngine<T> {
                 let mut support = self.fields.take(Buffer::Support(points))?;
                 let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
                 let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
-                with_weight!(constants.weight, weight => fit::widen_support(
+                with_order!(constants.order, [N, F, M] => fit::widen_support::<T, N, F, M>(
                     self.search(points)?,
                     sizes.capacity,
-                    weight,
+                    constants.weight,
                     &mut support,
                     &mut found,
                     &mut count,
@@ -167,20 +191,66 @@ impl<T: Real> CpuEngine<T> {
                 self.fields.put_index(Buffer::Neighbours(points), found);
                 self.fields.put_index(Buffer::NeighbourCount(points), count);
             }
+            Operation::AssembleLaplacian => {
+                with_taken!(self.fields, [row = Buffer::LaplacianRow], {
+                    let standing = Points::Standing;
+                    with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_laplacian(self.fits::<N, F>(standing)?, &mut row));
+                });
+            }
+            Operation::AssembleGradient => {
+                with_taken!(self.fields, [row = Buffer::GradientRow], {
+                    let standing = Points::Standing;
+                    with_order!(constants.order, [N, F, M] =>
+                        rows::assemble_gradient(self.fits::<N, F>(standing)?, &mut row));
+                });
+            }
+            Operation::AssembleIntegralLaplacian => {
+                with_taken!(self.fields, [row = Buffer::LaplacianRow], {
+                    integral::assemble_integral_laplacian(self.means()?, &mut row);
+                });
+            }
+            Operation::AssembleIntegralGradient => {
+                with_taken!(self.fields, [row = Buffer::GradientRow], {
+                    integral::assemble_integral_gradient(self.means()?, &mut row);
+                });
+            }
             _ => {
                 with_taken!(
                     self.fields,
                     [row = Buffer::MatrixRow, scale = Buffer::RowScale, diagonal = Buffer::Diagonal],
-                    with_weight!(constants.weight, weight => collocated::assemble(
-                        self.fits(Points::Standing, weight)?,
+                    collocated::assemble(
+                        self.fields.real(Buffer::LaplacianRow)?,
+                        self.gradient()?,
                         self.fields.real(Buffer::Normal)?,
-                        sizes.points,
-                        sizes.interior,
+                        [sizes.interior, sizes.points],
                         &mut row,
                         &mut scale,
                         &mut diagonal,
-                    ))
+                    )
                 );
+            }
+        }
+        Ok(())
+    }
+
+    /// What is done to a known field.
+    fn field(&mut self, operation: Operation) -> Result<(), EngineError> {
+        match operation {
+            Operation::Average => {
+                with_taken!(self.fields, [out = Buffer::FieldAverage], {
+                    integral::average(self.means()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+            Operation::Gradient => {
+                with_taken!(self.fields, [out = Buffer::FieldGradient], {
+                    derivative::gradient(self.gradient()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
+            }
+            _ => {
+                with_taken!(self.fields, [out = Buffer::FieldLaplacian], {
+                    derivative::laplacian(self.laplacian()?, self.fields.real(Buffer::Field)?, &mut out);
+                });
             }
         }
         Ok(())
@@ -195,8 +265,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::FitVelocity(points) => {
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let values = self.fields.real(moving)?;
-                    with_weight!(constants.weight, weight =>
-                        derivative::fit_velocity(self.fits(points, weight)?, values, &mut coefficients));
+                    with_order!(constants.order, [N, F, M] =>
+                        fits::fit_velocity(self.fits::<N, F>(points)?, values, &mut coefficients));
                 });
             }
             Operation::MovePoints => {
@@ -208,7 +278,7 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::RemapForward => {
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_forward(
+                    with_order!(constants.order, [N, F, M] => remap::remap_forward::<T, N>(
                         self.standing(Buffer::Position)?,
                         self.fields.real(Buffer::Position(Points::Moved))?,
                         self.fields.real(Buffer::Support(Points::Moved))?,
@@ -216,7 +286,7 @@ impl<T: Real> CpuEngine<T> {
                         self.fields.real(Buffer::Coefficients)?,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
             Operation::KeepVelocity => {
@@ -227,7 +297,7 @@ impl<T: Real> CpuEngine<T> {
             _ => {
                 let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
-                    remap::remap_departure(
+                    with_order!(constants.order, [N, F, M] => remap::remap_departure::<T, N>(
                         self.standing(Buffer::Position)?,
                         self.standing(Buffer::Support)?,
                         remap::Around {
@@ -241,7 +311,7 @@ impl<T: Real> CpuEngine<T> {
                         dt,
                         sizes.interior,
                         &mut velocity,
-                    );
+                    ));
                 });
             }
         }
@@ -251,7 +321,6 @@ impl<T: Real> CpuEngine<T> {
     fn kick(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
         let (sizes, constants) = (&scene.sizes, &scene.constants);
-        let standing = Points::Standing;
         let kick_per_density = T::from_f64(clock.kick / constants.density);
         match operation {
             Operation::ClearKick => {
@@ -267,8 +336,7 @@ impl<T: Real> CpuEngine<T> {
                 let diffusion = T::from_f64(clock.kick * constants.viscosity);
                 with_taken!(self.fields, [kick = Buffer::Kick], {
                     let field = self.fields.real(stage.velocity())?;
-                    with_weight!(constants.weight, weight => derivative::viscosity(
-                        self.fits(standing, weight)?, field, diffusion, self.forced(), &mut kick));
+                    derivative::viscosity(self.laplacian()?, field, diffusion, self.forced(), &mut kick);
                 });
             }
             Operation::Predict => {
@@ -280,8 +348,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::CorrectByFit => {
                 with_taken!(self.fields, [projected = Buffer::Projected], {
                     let pressure = self.fields.real(Buffer::Pressure)?;
-                    with_weight!(constants.weight, weight => derivative::correct_by_fit(
-                        self.fits(standing, weight)?, pressure, kick_per_density, sizes.interior, &mut projected));
+                    let end = sizes.interior;
+                    derivative::correct_by_fit(self.gradient()?, pressure, kick_per_density, end, &mut projected);
                 });
             }
             Operation::CorrectByAdjoint => {
@@ -335,8 +403,8 @@ impl<T: Real> CpuEngine<T> {
             }
             Operation::CollocatedSource => {
                 with_taken!(self.fields, [source = Buffer::Source], {
-                    with_weight!(constants.weight, weight => collocated::source(
-                        self.fits(Points::Standing, weight)?,
+                    collocated::source(
+                        self.gradient()?,
                         self.fields.real(Buffer::Normal)?,
                         self.fields.real(Buffer::RowScale)?,
                         self.fields.real(Buffer::Velocity)?,
@@ -344,7 +412,7 @@ impl<T: Real> CpuEngine<T> {
                         T::from_f64(density_per_kick),
                         [sizes.interior, sizes.points],
                         &mut source,
-                    ));
+                    );
                 });
             }
             Operation::DirectSolve => self.solve_directly()?,
@@ -352,6 +420,7 @@ impl<T: Real> CpuEngine<T> {
                 let stop = Stop {
                     residual: constants.tolerance * density_per_kick / clock.dt,
                     max_iterations: constants.max_iterations,
+                    floor: constants.floor,
                 };
                 self.solve = match operation {
                     Operation::ConjugateGradient => self.conjugate_gradient(stop)?,
@@ -371,12 +440,7 @@ impl<T: Real> CpuEngine<T> {
     }
 
     fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
-        Ok(collocated::Collocated {
-            neighbours: self.fields.index(Buffer::Neighbours(Points::Standing))?,
-            count: self.fields.index(Buffer::NeighbourCount(Points::Standing))?,
-            capacity: self.scene.sizes.capacity,
-            row: self.fields.real(Buffer::MatrixRow)?,
-        })
+        Ok(collocated::Collocated { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::MatrixRow)? })
     }
 
     fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -497,6 +561,10 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::FindNeighbours(_)
             | Operation::Factorise(_)
             | Operation::WidenSupport(_)
+            | Operation::AssembleLaplacian
+            | Operation::AssembleGradient
+            | Operation::AssembleIntegralLaplacian
+            | Operation::AssembleIntegralGradient
             | Operation::AssembleCollocated => self.geometry(operation),
             Operation::FitVelocity(_)
             | Operation::RemapDeparture
@@ -511,6 +579,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
+            Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence
             | Operation::CollocatedSource
             | Operation::ConjugateGradient
@@ -563,8 +632,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
-            with_weight!(scene.constants.weight, weight => derivative::fitted_divergence(
-                self.fits(Points::Standing, weight)?, velocity, scene.sizes.interior, &mut divergence));
+            with_order!(scene.constants.order, [N, F, M] => fits::fitted_divergence(
+                self.fits::<N, F>(Points::Standing)?, velocity, scene.sizes.interior, &mut divergence));
             measurement.divergence = measure::rms(&divergence, points);
         }
         self.fields.put(Buffer::Reported, reported);

@@ -209,7 +209,7 @@ impl Engine for GpuEngine {
 
     fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
         if steps == 0 {
-            return Ok(Advance::default());
+            return Ok(Advance { fallbacks: std::mem::take(&mut self.fallbacks), ..Advance::default() });
         }
         self.set_clock(clock)?;
         let step = std::mem::take(&mut self.step);

@@ -19,6 +19,7 @@ mod sources;
 #[cfg(test)]
 mod tests;
 mod timer;
+mod unrolled;
 
 pub use device::Gpu;
 pub use engine::GpuEngine;

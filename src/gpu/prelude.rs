@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
-use crate::cpu::operations::moments::{COEFFICIENTS, FACTOR, PIVOT_THRESHOLD};
+use crate::cpu::operations::integral::DIMENSIONS;
+use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
 use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
@@ -90,8 +91,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CELLS_X", constants.grid.cells[0] as usize),
         ("CELLS_Y", constants.grid.cells[1] as usize),
         ("TILES", sizes.cells.div_ceil(GROUP as usize)),
-        ("COEFFICIENTS", COEFFICIENTS),
-        ("FACTOR", FACTOR),
+        ("ORDER", constants.order),
+        ("COEFFICIENTS", sizes.coefficients),
+        ("FACTOR", entries(sizes.coefficients)),
         ("WIDER_STEPS", Rung::WIDER.len()),
         ("RUNG_LINEAR", Rung::LINEAR as usize),
         ("RUNG_NEAREST", Rung::NEAREST as usize),
@@ -112,11 +114,14 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     let real: &[(&str, f64)] = &[
         ("CELLS_PER_METRE", constants.grid.per_metre),
         ("RADIUS", constants.radius),
+        ("LATTICE_DENSITY", constants.lattice.density),
+        ("LATTICE_SPREAD", constants.lattice.spread),
+        ("DIMENSIONS", DIMENSIONS),
         ("WIDTH", constants.size.x),
         ("HEIGHT", constants.size.y),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
-        ("STOP_FLOOR", Stop::FLOOR),
+        ("STOP_FLOOR", constants.floor),
         ("EPSILON", precision.epsilon()),
         ("SHIFT_PER_POINT", constants.shift / sizes.points as f64),
     ];

@@ -60,7 +60,8 @@ impl Program {
             end_step.push(compiler.launch(&stage, &arrays)?);
         }
         let arrays = measured_arrays(scene);
-        let measure = sources::MEASURE.iter().map(|stage| compiler.launch(stage, &arrays)).collect::<Result<_, _>>()?;
+        let measured: &[Stage] = if scene.plan.flows { &sources::MEASURE } else { &[] };
+        let measure = measured.iter().map(|stage| compiler.launch(stage, &arrays)).collect::<Result<_, _>>()?;
         Ok(Self { parts, end_step, measure })
     }
 
@@ -114,7 +115,10 @@ fn reading(buffers: impl IntoIterator<Item = Buffer>) -> Arrays {
 
 /// The kernels at the end of a step, and what they may bind.
 pub(super) fn end_step_stages(scene: &Scene) -> Vec<(Stage, Arrays)> {
-    let mut stages = vec![(sources::WATCH_VELOCITY, reading([Buffer::Projected]))];
+    let mut stages = Vec::new();
+    if scene.plan.flows {
+        stages.push((sources::WATCH_VELOCITY, reading([Buffer::Projected])));
+    }
     if scene.plan.buffers().contains(&Buffer::Pressure) {
         stages.push((sources::WATCH_PRESSURE, reading([Buffer::Pressure])));
     }

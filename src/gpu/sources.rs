@@ -1,6 +1,7 @@
 //! The WGSL files: which stages an operation has, and what `#import` brings in.
 
 use super::layout::Extent;
+use super::unrolled;
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
@@ -68,12 +69,19 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::FindNeighbours(_) => once(stage!("find_neighbours", Points)),
         Operation::Factorise(_) => once(stage!("factorise", Points)),
         Operation::WidenSupport(_) => once(stage!("widen_support", Points)),
+        Operation::AssembleLaplacian => once(stage!("assemble_laplacian", Points)),
+        Operation::AssembleGradient => once(stage!("assemble_gradient", Points)),
+        Operation::AssembleIntegralLaplacian => once(stage!("assemble_integral_laplacian", Points)),
+        Operation::AssembleIntegralGradient => once(stage!("assemble_integral_gradient", Points)),
         Operation::AssembleCollocated => once(stage!("assemble_collocated", Points)),
         Operation::FitVelocity(_) => once(stage!("fit_velocity", Points)),
         Operation::RemapDeparture => once(stage!("remap_departure", Points)),
         Operation::MovePoints => once(stage!("move_points", Points)),
         Operation::RemapForward => once(stage!("remap_forward", Points)),
         Operation::KeepVelocity => once(stage!("keep_velocity", Points)),
+        Operation::Average => once(stage!("average", Points)),
+        Operation::Gradient => once(stage!("gradient", Points)),
+        Operation::Laplacian => once(stage!("laplacian", Points)),
         Operation::ClearKick => once(stage!("clear_kick", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
@@ -139,6 +147,9 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "normal_matrix" => text!("normal_matrix"),
         "normal_equations" => text!("normal_equations"),
         "fit" => text!("fit"),
+        "fit_rows" => text!("fit_rows"),
+        "mean" => text!("mean"),
+        "gradient" => text!("gradient"),
         "evaluate" => text!("evaluate"),
         "sums" => text!("sums"),
         "total" => text!("total"),
@@ -169,18 +180,16 @@ pub(super) fn expand(stage: &Stage, scene: &Scene) -> Result<String, EngineError
     Ok(text)
 }
 
-fn append(
-    source: &'static str,
-    scene: &Scene,
-    seen: &mut Vec<&'static str>,
-    text: &mut String,
-) -> Result<(), &'static str> {
+fn append(source: &str, scene: &Scene, seen: &mut Vec<String>, text: &mut String) -> Result<(), String> {
     for line in source.lines() {
         match line.strip_prefix("#import ") {
-            Some(name) if seen.contains(&name) => {}
+            Some(name) if seen.iter().any(|other| other == name) => {}
             Some(name) => {
-                seen.push(name);
-                append(library(name, scene).ok_or(name)?, scene, seen, text)?;
+                seen.push(name.to_owned());
+                match unrolled::library(name, scene.constants.order) {
+                    Some(unrolled) => text.push_str(&unrolled),
+                    None => append(library(name, scene).ok_or(name)?, scene, seen, text)?,
+                }
             }
             None => {
                 text.push_str(line);

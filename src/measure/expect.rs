@@ -146,7 +146,7 @@ mod tests {
     fn flow() -> Snapshot {
         let position = jittered_cloud(20, 0.3, 2);
         let velocity = position.iter().map(|x| DVec2::new(4.0 * x.y * (1.0 - x.y), 0.0)).collect();
-        Snapshot { time: 1.0, pressure: vec![0.0; position.len()], position, velocity }
+        Snapshot { time: 1.0, pressure: vec![0.0; position.len()], position, velocity, derivatives: None }
     }
 
     #[test]

@@ -140,7 +140,7 @@ mod tests {
         let position = jittered_cloud(n, 0.4, 11);
         let velocity = position.iter().map(|x| DVec2::new((4.0 * x.y).sin(), (x.x - 0.31) * (x.x - 0.31))).collect();
         let pressure = position.iter().map(|x| 7.0 + x.x - 2.0 * x.y).collect();
-        Snapshot { time: 0.0, position, velocity, pressure }
+        Snapshot { time: 0.0, position, velocity, pressure, derivatives: None }
     }
 
     const DOMAIN: Domain = Domain { width: 1.0, height: 1.0 };

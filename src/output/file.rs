@@ -34,18 +34,20 @@ pub(crate) fn write_whole(
 /// Every field has a value for each point, and every value is a finite number.
 pub(super) fn check(snapshot: &Snapshot) -> Result<(), OutputError> {
     let points = snapshot.position.len();
-    for (field, found) in [("velocity", snapshot.velocity.len()), ("pressure", snapshot.pressure.len())] {
+    let columns = snapshot.columns();
+    for column in &columns {
+        let (field, found) = (column.name(), column.len());
         if found != points {
             return Err(OutputError::Length { field, found, points });
         }
     }
     finite("time", snapshot.time)?;
-    for point in 0..points {
-        let (x, u) = (snapshot.position[point], snapshot.velocity[point]);
-        for (field, value) in [("x", x.x), ("y", x.y), ("u", u.x), ("v", u.y), ("p", snapshot.pressure[point])] {
-            if !value.is_finite() {
-                return Err(OutputError::PointNotFinite { field, point, value });
-            }
+    for (point, place) in snapshot.position.iter().enumerate() {
+        let fields = columns.iter().flat_map(|column| column.at(point));
+        if let Some((field, value)) =
+            [("x", place.x), ("y", place.y)].into_iter().chain(fields).find(|(_, value)| !value.is_finite())
+        {
+            return Err(OutputError::PointNotFinite { field, point, value });
         }
     }
     Ok(())
@@ -80,6 +82,7 @@ mod tests {
             position: vec![glam::DVec2::ZERO; 3],
             velocity: vec![glam::DVec2::ZERO; 3],
             pressure: vec![0.0; 3],
+            derivatives: None,
         };
         check(&snapshot).unwrap();
         snapshot.velocity[2].y = f64::INFINITY;

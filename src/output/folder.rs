@@ -7,8 +7,17 @@ use std::path::{Path, PathBuf};
 use super::OutputError;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 7] =
-    ["points.csv", "points.vtu", "diagnostics.csv", "summary.json", "pressure.png", "speed.png", "centreline.png"];
+const FILES: [&str; 9] = [
+    "points.csv",
+    "points.vtu",
+    "diagnostics.csv",
+    "summary.json",
+    "pressure.png",
+    "speed.png",
+    "centreline.png",
+    "gradient.png",
+    "laplacian.png",
+];
 
 /// Where a run's files lie.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,6 +89,14 @@ impl RunFolder {
         self.path.join("speed.png")
     }
 
+    pub fn gradient_picture(&self) -> PathBuf {
+        self.path.join("gradient.png")
+    }
+
+    pub fn laplacian_picture(&self) -> PathBuf {
+        self.path.join("laplacian.png")
+    }
+
     pub fn centreline_picture(&self) -> PathBuf {
         self.path.join("centreline.png")
     }
@@ -115,6 +132,8 @@ mod tests {
             folder.pressure_picture(),
             folder.speed_picture(),
             folder.centreline_picture(),
+            folder.gradient_picture(),
+            folder.laplacian_picture(),
         ] {
             fs::write(path, "").unwrap();
         }

@@ -1,15 +1,15 @@
-//! points.csv: every point of a snapshot, one a line, `x,y,u,v,p` in m, m/s and Pa, each number in the shortest form
-//! that reads back to the same bits.
+//! points.csv: every point of a snapshot, one a line, `x,y,u,v,p` in m, m/s and Pa (of derivatives of a known field
+//! `x,y,value,gradient_x,gradient_y,laplacian`), each number in the shortest form that reads back to the same bits.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::Path;
 
 use glam::DVec2;
 
 use super::OutputError;
 use super::file::{check, write_whole};
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Column, Snapshot};
 
 const HEADER: &str = "x,y,u,v,p";
 
@@ -20,16 +20,22 @@ const HEADER: &str = "x,y,u,v,p";
 pub fn write(path: &Path, snapshot: &Snapshot) -> Result<(), OutputError> {
     check(snapshot)?;
     write_whole(path, |file| {
-        let mut rows = snapshot.position.iter().zip(&snapshot.velocity).zip(&snapshot.pressure);
-        writeln!(file, "{HEADER}")
-            .and_then(|()| {
-                rows.try_for_each(|((x, u), p)| writeln!(file, "{:?},{:?},{:?},{:?},{p:?}", x.x, x.y, u.x, u.y))
-            })
+        let columns = snapshot.columns();
+        let row = |file: &mut BufWriter<File>, point: usize| {
+            let place = snapshot.position[point];
+            write!(file, "{:?},{:?}", place.x, place.y)?;
+            columns.iter().flat_map(|column| column.at(point)).try_for_each(|(_, value)| write!(file, ",{value:?}"))?;
+            writeln!(file)
+        };
+        let names = columns.iter().flat_map(Column::names);
+        let header = ["x", "y"].into_iter().chain(names).collect::<Vec<_>>().join(",");
+        writeln!(file, "{header}")
+            .and_then(|()| (0..snapshot.position.len()).try_for_each(|point| row(file, point)))
             .map_err(OutputError::io(path))
     })
 }
 
-/// Reads what [`write`] wrote; the file does not hold the time, s.
+/// Reads what [`write`] wrote of a flow; the file does not hold the time, s.
 ///
 /// # Errors
 /// Another header, a row without five finite numbers, errors of the file system.
@@ -79,6 +85,7 @@ pub(super) mod tests {
             position: (0..20).map(pair).collect(),
             velocity: (3..23).map(pair).collect(),
             pressure: (5..25).map(|k| numbers[k % 8]).collect(),
+            derivatives: None,
         }
     }
 

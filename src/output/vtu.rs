@@ -8,12 +8,12 @@ use std::path::Path;
 
 use super::OutputError;
 use super::file::{check, write_whole};
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Column, Snapshot};
 
 /// VTK's cell type of a single point.
 const VERTEX: u8 = 1;
 
-/// Writes all points with their velocity, m/s, and pressure, Pa; third components are zero.
+/// Writes all points with their fields; third components are zero.
 ///
 /// # Errors
 /// A value that is not finite, a field of the wrong length, errors of the file system.
@@ -27,7 +27,9 @@ fn document(out: &mut impl Write, snapshot: &Snapshot) -> io::Result<()> {
     let triples = |vectors: &[glam::DVec2]| -> Vec<u8> {
         vectors.iter().flat_map(|v| [v.x, v.y, 0.0]).flat_map(f64::to_le_bytes).collect()
     };
-    let pressure: Vec<u8> = snapshot.pressure.iter().copied().flat_map(f64::to_le_bytes).collect();
+    let columns = snapshot.columns();
+    let scalars = columns.iter().find(|column| matches!(column, Column::Scalar { .. })).map_or("", Column::name);
+    let vectors = columns.iter().find(|column| matches!(column, Column::Vector { .. })).map_or("", Column::name);
     let count = |from: u64| -> Vec<u8> { (from..from + points).flat_map(u64::to_le_bytes).collect() };
 
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
@@ -47,9 +49,16 @@ fn document(out: &mut impl Write, snapshot: &Snapshot) -> io::Result<()> {
     array(out, "Int64", "offsets", 1, &count(1))?;
     array(out, "UInt8", "types", 1, &vec![VERTEX; snapshot.position.len()])?;
     writeln!(out, "</Cells>")?;
-    writeln!(out, r#"<PointData Scalars="pressure" Vectors="velocity">"#)?;
-    array(out, "Float64", "pressure", 1, &pressure)?;
-    array(out, "Float64", "velocity", 3, &triples(&snapshot.velocity))?;
+    writeln!(out, r#"<PointData Scalars="{scalars}" Vectors="{vectors}">"#)?;
+    for column in &columns {
+        match column {
+            Column::Scalar { name, values, .. } => {
+                let bytes: Vec<u8> = values.iter().copied().flat_map(f64::to_le_bytes).collect();
+                array(out, "Float64", name, 1, &bytes)?;
+            }
+            Column::Vector { name, values, .. } => array(out, "Float64", name, 3, &triples(values))?,
+        }
+    }
     writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 

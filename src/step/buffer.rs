@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{BLOCK, Sizes};
+use crate::cpu::operations::moments::entries;
 
 /// Which places of the points an array or an operation belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -31,7 +32,7 @@ pub enum Buffer {
     NeighbourCount(Points),
     /// Radius of each point's neighbourhood, m: `r_e`, or wider where the fit needed more points.
     Support(Points),
-    /// Cholesky factor of each point's 5x5 normal matrix, 15 numbers, blocked.
+    /// Cholesky factor of each point's normal matrix, 15 numbers for the 5x5 one of order 2, blocked.
     Factor(Points),
     /// How far down the ladder each point's fit stands: see [`super::Rung`].
     Rung(Points),
@@ -45,6 +46,10 @@ pub enum Buffer {
     FaceCount,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
+    /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
+    LaplacianRow,
+    /// Gradient as a sum: the same for the derivatives along x, then along y, 1/m; blocked, `2 capacity` slots.
+    GradientRow,
     /// Collocated pressure matrix: the factor of `p_j - p_i` for every neighbour slot, 1/m^2, blocked.
     MatrixRow,
     /// Collocated pressure matrix: what each row was multiplied by, 1 inside, 1/m at the boundary.
@@ -61,7 +66,7 @@ pub enum Buffer {
     Reflected,
     /// Relaxed mean of the pressure's kicks, m/s; interleaved. Reflection alone.
     PressureKick,
-    /// The five scaled coefficients of the fit of u, then of v, m/s, blocked.
+    /// The scaled coefficients of the fit of u, five for order 2, then of v, m/s, blocked.
     Coefficients,
     /// Pressure `p`, Pa.
     Pressure,
@@ -78,6 +83,12 @@ pub enum Buffer {
     Preconditioned,
     /// `Projected` at the last report, m/s, to measure the rate of change from; interleaved.
     Reported,
+    /// A known field, no unit.
+    Field,
+    /// Its mean over neighbours, no unit; its gradient, 1/m, interleaved; its Laplacian, 1/m^2.
+    FieldAverage,
+    FieldGradient,
+    FieldLaplacian,
 }
 
 /// What an array's entries are.
@@ -106,6 +117,8 @@ impl Buffer {
             Buffer::FaceWeight => ("face_weight", None),
             Buffer::FaceCount => ("face_count", None),
             Buffer::Normal => ("normal", None),
+            Buffer::LaplacianRow => ("laplacian_row", None),
+            Buffer::GradientRow => ("gradient_row", None),
             Buffer::MatrixRow => ("matrix_row", None),
             Buffer::RowScale => ("row_scale", None),
             Buffer::Diagonal => ("diagonal", None),
@@ -125,6 +138,10 @@ impl Buffer {
             Buffer::StabilisedProduct => ("stabilised_product", None),
             Buffer::Preconditioned => ("preconditioned", None),
             Buffer::Reported => ("reported", None),
+            Buffer::Field => ("field", None),
+            Buffer::FieldAverage => ("field_average", None),
+            Buffer::FieldGradient => ("field_gradient", None),
+            Buffer::FieldLaplacian => ("field_laplacian", None),
         };
         match points {
             Some(Points::Moved) => format!("moved_{name}"),
@@ -156,11 +173,13 @@ impl Buffer {
             | Buffer::Projected
             | Buffer::Reflected
             | Buffer::PressureKick
-            | Buffer::Reported => 2,
-            Buffer::Neighbours(_) | Buffer::MatrixRow => sizes.capacity,
+            | Buffer::Reported
+            | Buffer::FieldGradient => 2,
+            Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
+            Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
-            Buffer::Factor(_) => 15,
-            Buffer::Coefficients => 10,
+            Buffer::Factor(_) => entries(sizes.coefficients),
+            Buffer::Coefficients => 2 * sizes.coefficients,
             _ => 1,
         })
     }

@@ -34,7 +34,15 @@ pub enum Operation {
     Factorise(Points),
     /// Takes the points whose factorisation failed down the ladder: wider radius, linear fit, nearest value.
     WidenSupport(Points),
-    /// Rows of the collocated pressure matrix: fitted Laplacian inside, fitted normal derivative at walls.
+    /// Rows of the fitted Laplacian: the factor of each neighbour's difference.
+    AssembleLaplacian,
+    /// Rows of the fitted gradient.
+    AssembleGradient,
+    /// Rows of the Laplacian as a weighted mean over neighbours, (2.4).
+    AssembleIntegralLaplacian,
+    /// Rows of the gradient as a weighted mean over neighbours, (2.3).
+    AssembleIntegralGradient,
+    /// Rows of the collocated pressure matrix: the Laplacian's inside, the normal derivative's at walls.
     AssembleCollocated,
 
     /// Fits the velocity that moves the points.
@@ -74,6 +82,13 @@ pub enum Operation {
     HoldWalls,
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
+
+    /// The weighted mean of a known field over neighbours, (2.2).
+    Average,
+    /// The gradient of a known field.
+    Gradient,
+    /// The Laplacian of a known field.
+    Laplacian,
 }
 
 impl Operation {
@@ -84,6 +99,10 @@ impl Operation {
             Operation::FindNeighbours(_) => "find_neighbours",
             Operation::Factorise(_) => "factorise",
             Operation::WidenSupport(_) => "widen_support",
+            Operation::AssembleLaplacian => "assemble_laplacian",
+            Operation::AssembleGradient => "assemble_gradient",
+            Operation::AssembleIntegralLaplacian => "assemble_integral_laplacian",
+            Operation::AssembleIntegralGradient => "assemble_integral_gradient",
             Operation::AssembleCollocated => "assemble_collocated",
             Operation::FitVelocity(_) => "fit_velocity",
             Operation::RemapDeparture => "remap_departure",
@@ -103,6 +122,9 @@ impl Operation {
             Operation::CorrectByAdjoint => "correct_by_adjoint",
             Operation::HoldWalls => "hold_walls",
             Operation::Reflect => "reflect",
+            Operation::Average => "average",
+            Operation::Gradient => "gradient",
+            Operation::Laplacian => "laplacian",
         }
     }
 
@@ -116,6 +138,13 @@ impl Operation {
             list.extend_from_slice(more);
             list
         };
+        let means = vec![
+            Position(Points::Standing),
+            Support(Points::Standing),
+            Neighbours(Points::Standing),
+            NeighbourCount(Points::Standing),
+        ];
+        let sums = |row| vec![Neighbours(Points::Standing), NeighbourCount(Points::Standing), row];
         let faces = [FaceNeighbours, FaceWeight, FaceCount];
         let standing = Points::Standing;
         match self {
@@ -125,7 +154,9 @@ impl Operation {
                 vec![Position(points), Neighbours(points), NeighbourCount(points), Support(points)]
             }
             Operation::WidenSupport(points) => vec![Position(points), CellStart(points), CellPoints(points)],
-            Operation::AssembleCollocated => with(fits(standing), &[Normal]),
+            Operation::AssembleLaplacian | Operation::AssembleGradient => fits(standing),
+            Operation::AssembleIntegralLaplacian | Operation::AssembleIntegralGradient => means,
+            Operation::AssembleCollocated => with(sums(LaplacianRow), &[GradientRow, Normal]),
             Operation::FitVelocity(points) => with(fits(points), &[plan.moving()]),
             Operation::RemapDeparture => {
                 let [around, around_count] = plan.around();
@@ -138,16 +169,19 @@ impl Operation {
             Operation::KeepVelocity => vec![plan.moving()],
             Operation::ClearKick => vec![],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
-            Operation::Viscosity(stage) => with(fits(standing), &[stage.velocity()]),
+            Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
             Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
-            Operation::CollocatedSource => with(fits(standing), &[Normal, RowScale, Velocity, Projected]),
+            Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
             Operation::ConjugateGradient => with(faces.to_vec(), &[Diagonal, Volume, Source]),
             Operation::Bicgstab | Operation::DirectSolve => with(plan.matrix(), &[Diagonal, Volume, Source]),
-            Operation::CorrectByFit => with(fits(standing), &[Pressure]),
+            Operation::CorrectByFit => with(sums(GradientRow), &[Pressure]),
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
             Operation::Reflect => vec![Velocity, Projected, Kick],
+            Operation::Average => with(means, &[Field]),
+            Operation::Gradient => with(sums(GradientRow), &[Field]),
+            Operation::Laplacian => with(sums(LaplacianRow), &[Field]),
         }
     }
 
@@ -161,6 +195,8 @@ impl Operation {
             Operation::WidenSupport(points) => {
                 vec![Support(points), Neighbours(points), NeighbourCount(points), Factor(points), Rung(points)]
             }
+            Operation::AssembleLaplacian | Operation::AssembleIntegralLaplacian => vec![LaplacianRow],
+            Operation::AssembleGradient | Operation::AssembleIntegralGradient => vec![GradientRow],
             Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
             Operation::FitVelocity(_) => vec![Coefficients],
             Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
@@ -177,6 +213,9 @@ impl Operation {
             }
             Operation::DirectSolve => vec![Pressure],
             Operation::Reflect => vec![PressureKick, Reflected],
+            Operation::Average => vec![FieldAverage],
+            Operation::Gradient => vec![FieldGradient],
+            Operation::Laplacian => vec![FieldLaplacian],
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{Case, Gradient, PressureForm, Remap, Solver, Splitting};
+use crate::case::{self, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -16,6 +16,8 @@ pub struct Sizes {
     pub face_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
+    /// Coefficients of a fit.
+    pub coefficients: usize,
 }
 
 /// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.
@@ -30,10 +32,89 @@ pub struct Plan {
     /// The pressure equation, where the scene has one.
     pub form: Option<PressureForm>,
     pub splitting: Splitting,
+    /// True of a flow in time; else `kick` is all there is to do, once.
+    pub flows: bool,
+}
+
+fn solve_by(solver: Solver) -> Operation {
+    match solver {
+        Solver::ConjugateGradient => Operation::ConjugateGradient,
+        Solver::Bicgstab => Operation::Bicgstab,
+        Solver::Direct => Operation::DirectSolve,
+    }
+}
+
+/// The rows that a plan needs, and the form that they are of.
+struct Rows {
+    operators: Operators,
+    laplacian: bool,
+    gradient: bool,
+}
+
+impl Rows {
+    /// Everything up to the rows: the search for neighbours, the fits where something needs them.
+    fn setup(&self, evaluates_fits: bool) -> Vec<Operation> {
+        use Operation::*;
+        let points = Points::Standing;
+        let interpolation = self.operators == Operators::Interpolation;
+        let mut setup = vec![BuildCells(points), FindNeighbours(points)];
+        if interpolation || evaluates_fits {
+            setup.extend([Factorise(points), WidenSupport(points)]);
+        }
+        if self.laplacian {
+            setup.push(if interpolation { AssembleLaplacian } else { AssembleIntegralLaplacian });
+        }
+        if self.gradient {
+            setup.push(if interpolation { AssembleGradient } else { AssembleIntegralGradient });
+        }
+        setup
+    }
 }
 
 impl Plan {
     pub fn new(case: &Case) -> Self {
+        match case.problem() {
+            Problem::Flow => Self::of_flow(case),
+            Problem::Derivatives(_) => Self::of_derivatives(case),
+            Problem::Poisson(_) => Self::of_poisson(case),
+        }
+    }
+
+    /// Derivatives of a known field, once.
+    fn of_derivatives(case: &Case) -> Self {
+        let interpolation = case.method.operators == Operators::Interpolation;
+        let laplacian = !interpolation || case.method.order > 1;
+        let setup = Rows { operators: case.method.operators, laplacian, gradient: true }.setup(false);
+        let mut kick = vec![Operation::Gradient];
+        if laplacian {
+            kick.push(Operation::Laplacian);
+        }
+        if !interpolation {
+            kick.push(Operation::Average);
+        }
+        Self { setup, drift: Vec::new(), kick, form: None, splitting: Splitting::Projection, flows: false }
+    }
+
+    /// The pressure equation with a known source, once.
+    fn of_poisson(case: &Case) -> Self {
+        let pressure = case.effects.pressure.clone().unwrap_or_default();
+        let mut setup = Vec::new();
+        if pressure.form == PressureForm::Collocated {
+            setup = Rows { operators: Operators::Interpolation, laplacian: true, gradient: true }.setup(false);
+            setup.push(Operation::AssembleCollocated);
+        }
+        let kick = vec![solve_by(pressure.solver())];
+        Self {
+            setup,
+            drift: Vec::new(),
+            kick,
+            form: Some(pressure.form),
+            splitting: Splitting::Projection,
+            flows: false,
+        }
+    }
+
+    fn of_flow(case: &Case) -> Self {
         use Operation::*;
         let effects = &case.effects;
         // Without a pressure there is nothing to reflect.
@@ -41,8 +122,13 @@ impl Plan {
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
         let standing = Points::Standing;
-        let mut setup =
-            vec![BuildCells(standing), FindNeighbours(standing), Factorise(standing), WidenSupport(standing)];
+        let rows = Rows {
+            operators: case.method.operators,
+            laplacian: effects.viscosity.is_some() || collocated,
+            gradient: effects.pressure.as_ref().is_some_and(|pressure| pressure.gradient() == case::Gradient::Fit),
+        };
+        // What carries the velocity evaluates fits.
+        let mut setup = rows.setup(effects.advection.is_some());
         let mut drift = Vec::new();
         match effects.advection.as_ref().map(|advection| advection.remap) {
             None => drift.push(KeepVelocity),
@@ -67,22 +153,17 @@ impl Plan {
         }
         kick.push(Predict);
         if let Some(pressure) = &effects.pressure {
-            let (source, default) = match pressure.form {
-                PressureForm::Conservative => (Divergence, Solver::ConjugateGradient),
+            kick.push(match pressure.form {
+                PressureForm::Conservative => Divergence,
                 PressureForm::Collocated => {
                     setup.push(AssembleCollocated);
-                    (CollocatedSource, Solver::Bicgstab)
+                    CollocatedSource
                 }
-            };
-            kick.push(source);
-            kick.push(match pressure.solver.unwrap_or(default) {
-                Solver::ConjugateGradient => ConjugateGradient,
-                Solver::Bicgstab => Bicgstab,
-                Solver::Direct => DirectSolve,
             });
-            kick.push(match pressure.gradient.unwrap_or(Gradient::Fit) {
-                Gradient::Fit => CorrectByFit,
-                Gradient::Adjoint => CorrectByAdjoint,
+            kick.push(solve_by(pressure.solver()));
+            kick.push(match pressure.gradient() {
+                case::Gradient::Fit => CorrectByFit,
+                case::Gradient::Adjoint => CorrectByAdjoint,
             });
             if collocated {
                 kick.push(HoldWalls);
@@ -91,7 +172,14 @@ impl Plan {
         if reflects {
             kick.push(Reflect);
         }
-        Self { setup, drift, kick, form: effects.pressure.as_ref().map(|pressure| pressure.form), splitting }
+        Self {
+            setup,
+            drift,
+            kick,
+            form: effects.pressure.as_ref().map(|pressure| pressure.form),
+            splitting,
+            flows: true,
+        }
     }
 
     /// Every operation, setup first.
@@ -143,11 +231,13 @@ impl Plan {
         self.form == Some(PressureForm::Collocated)
     }
 
-    /// Every array that some operation touches, and `Volume` and `Reported`, which the reports need; in a fixed order.
+    /// Every array that some operation touches, and those that the reports of a flow need; in a fixed order.
     pub fn buffers(&self) -> Vec<Buffer> {
         let mut buffers: Vec<Buffer> =
             self.operations().flat_map(|operation| [operation.reads(self), operation.writes()].concat()).collect();
-        buffers.extend([Buffer::Volume, Buffer::Reported, Buffer::Projected, Buffer::Velocity]);
+        if self.flows {
+            buffers.extend([Buffer::Volume, Buffer::Reported, Buffer::Projected, Buffer::Velocity]);
+        }
         buffers.sort_unstable();
         buffers.dedup();
         buffers

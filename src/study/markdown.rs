@@ -36,7 +36,7 @@ fn text(table: &Table) -> String {
     }
     for (grid, label) in table.grids.iter().enumerate() {
         line(format!("\n## {}\n", capital(label)));
-        line("| family | setting | points | steps | pressure iterations | error | seconds | least to most | setup | solve | other operations | reading | end |".to_owned());
+        line("| family | | points | steps | pressure iterations | error | seconds | least to most | setup | solve | other operations | reading | end |".to_owned());
         line("|---|---|---|---|---|---|---|---|---|---|---|---|---|".to_owned());
         for row in table.rows.iter().filter(|row| row.grid == grid) {
             line(full(table, row));
@@ -62,7 +62,7 @@ fn full(table: &Table, row: &Row) -> String {
     let spread = format!("{} to {}", plain(seconds.least), plain(seconds.most));
     let cells = [
         row.family.clone(),
-        row.words.clone(),
+        row.along.clone(),
         row.points.to_string(),
         row.steps.to_string(),
         row.iterations.to_string(),

@@ -55,7 +55,7 @@ pub struct RunSeconds {
 pub enum End {
     /// Nothing changed any more.
     Steady,
-    /// The end of the simulated time.
+    /// The end of the simulated time, or of a problem without.
     Time,
     /// A field turned non-finite after the state at this time, s.
     Diverged {
@@ -70,7 +70,7 @@ impl Display for End {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         match self {
             End::Steady => write!(out, "steady"),
-            End::Time => write!(out, "end of time"),
+            End::Time => write!(out, "to the end"),
             End::Diverged { after } => write!(out, "diverged after t = {after:.4} s"),
             End::Failed { reason } => write!(out, "failed: {reason}"),
         }
@@ -138,7 +138,7 @@ impl Trial {
     ) -> Result<Option<Run>, Failure> {
         let scene = Arc::new(Scene::build(&self.case)?);
         let mut engine = self.open(&scene, gpu)?;
-        let mut engine = Timed::new(engine.as_mut());
+        let mut engine = Timed::new(engine.as_mut(), &scene.plan);
         let opened = wall.elapsed().as_secs_f64();
         let outcome = simulate(&scene, &mut engine, &mut Stopper(stop))?;
         let parts = engine.parts();

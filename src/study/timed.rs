@@ -3,15 +3,16 @@
 use std::time::Instant;
 
 use crate::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, SolveInfo, Spent};
-use crate::step::{Buffer, Operation};
+use crate::step::{Buffer, Operation, Plan};
 
 /// Passes everything on to the engine inside.
 pub(super) struct Timed<'a> {
     inner: &'a mut dyn Engine,
+    plan: &'a Plan,
     /// s
     reading: f64,
-    /// What the operations had taken before the first step.
-    setup: Option<Spent>,
+    /// What the operations had taken before the first step: of the steps' own, the search for the longest stable step.
+    before: Option<Spent>,
 }
 
 /// Seconds of the parts of the steps; the operations' are none where the engine takes no times.
@@ -26,22 +27,28 @@ pub(super) struct Parts {
 }
 
 impl<'a> Timed<'a> {
-    pub fn new(inner: &'a mut dyn Engine) -> Self {
-        Self { inner, reading: 0.0, setup: None }
+    pub fn new(inner: &'a mut dyn Engine, plan: &'a Plan) -> Self {
+        Self { inner, plan, reading: 0.0, before: None }
     }
 
     pub fn parts(&self) -> Parts {
         let all = self.inner.seconds();
-        let setup = self.setup.clone().unwrap_or_else(|| all.clone());
         if all.is_empty() {
             return Parts { solve: None, operations: None, reading: self.reading };
         }
         let (mut solve, mut operations) = (0.0, 0.0);
-        for (operation, seconds) in &all {
+        let repeated = |operation| self.plan.drift.contains(operation) || self.plan.kick.contains(operation);
+        for (operation, seconds) in all.iter().filter(|(operation, _)| repeated(operation)) {
             match operation {
                 Operation::ConjugateGradient | Operation::Bicgstab | Operation::DirectSolve => solve += seconds,
-                _ => operations += seconds - setup.get(operation).unwrap_or(&0.0),
+                _ => {
+                    operations += seconds - self.before.as_ref().and_then(|spent| spent.get(operation)).unwrap_or(&0.0)
+                }
             }
+        }
+        // A solve that stalls is handed to the direct solver, which is no operation of the plan then.
+        if !repeated(&Operation::DirectSolve) {
+            solve += all.get(&Operation::DirectSolve).unwrap_or(&0.0);
         }
         Parts { solve: Some(solve), operations: Some(operations), reading: self.reading }
     }
@@ -49,7 +56,8 @@ impl<'a> Timed<'a> {
     fn read_timed<T>(&mut self, body: impl FnOnce(&mut dyn Engine) -> T) -> T {
         let started = Instant::now();
         let result = body(self.inner);
-        if self.setup.is_some() {
+        // Without time there is nothing but the setup before.
+        if self.before.is_some() || !self.plan.flows {
             self.reading += started.elapsed().as_secs_f64();
         }
         result
@@ -74,8 +82,8 @@ impl Engine for Timed<'_> {
     }
 
     fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
-        if self.setup.is_none() {
-            self.setup = Some(self.inner.seconds());
+        if self.before.is_none() && steps > 0 {
+            self.before = Some(self.inner.seconds());
         }
         self.inner.advance(steps, clock)
     }

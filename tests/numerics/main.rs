@@ -17,6 +17,7 @@ mod least_squares;
 mod matrix;
 mod memory;
 mod options;
+mod orders;
 mod poisson;
 mod remap;
 mod repeatability;

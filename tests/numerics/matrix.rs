@@ -3,6 +3,7 @@
 use stillpoint::cpu::operations::collocated::Collocated;
 use stillpoint::cpu::operations::conservative::{Conservative, Faces};
 use stillpoint::cpu::operations::pressure::Rows;
+use stillpoint::cpu::operations::rows::Lists;
 use stillpoint::cpu::real::{Pack, Real};
 use stillpoint::step::{Buffer, Operation, Points};
 
@@ -35,7 +36,8 @@ pub fn product(bench: &mut Bench, p: &[f64]) -> Vec<f64> {
         let neighbours = bench.indexes(Buffer::Neighbours(Points::Standing));
         let count = bench.indexes(Buffer::NeighbourCount(Points::Standing));
         let row = bench.reals(Buffer::MatrixRow);
-        rows_times(&Collocated { neighbours: &neighbours, count: &count, capacity: sizes.capacity, row: &row }, &padded)
+        let lists = Lists { neighbours: &neighbours, count: &count, capacity: sizes.capacity };
+        rows_times(&Collocated { lists, row: &row }, &padded)
     };
     product.truncate(sizes.points);
     product

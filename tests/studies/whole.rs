@@ -110,7 +110,7 @@ fn a_setting_that_fails_is_a_row_and_not_the_end() {
     assert!(text(&output.stdout).contains(", 2 without an error\n"), "{}", text(&output.stdout));
     let rows = rows(&folder.path().join("runs/study"));
     let said: Vec<(&str, bool)> = rows.iter().map(|row| (row["status"].as_str(), row["error"].is_empty())).collect();
-    assert_eq!(said[0], ("end of time", false));
+    assert_eq!(said[0], ("to the end", false));
     assert!(said[1].0.starts_with("diverged after t = ") && said[1].1, "{said:?}");
     assert!(said[2].0.starts_with("failed: time.step = 0.05: at 3 m/s points move") && said[2].1, "{said:?}");
 }
@@ -124,4 +124,27 @@ fn settings_that_grids_share_are_run_once() {
     let out = folder.path().join("runs/study");
     // f32; f32 and f64 at the courant number that the case has anyway.
     assert_eq!((rows(&out).len(), runs(&out)), (3, 2 * 2));
+}
+
+#[test]
+fn a_problem_without_time_can_be_studied() {
+    let study = "title = \"Poisson\"\ncase = \"case.toml\"\nerror = \"p_min\"\nrepeats = 1\n[vary]\n\
+        cloud.spacing = [0.1, 0.05]\neffects.pressure.solver = [\"conjugate_gradient\", \"direct\"]\n";
+    let folder = folder(study);
+    let case = fs::read_to_string(folder.path().join("cases/poisson.toml")).expect("a shipped case");
+    let expected = "\n[expect.p_min]\ncomponent = \"p\"\nline = { x = 0.0 }\nmeasure = \"minimum\"\nvalue = -1.0\n\
+        tolerance = 0.1\nsource = \"the known field\"\n";
+    fs::write(folder.path().join("case.toml"), case + expected).expect("a file");
+    let output = stillpoint(folder.path(), &["cost", "study.toml"]);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    let rows = rows(&folder.path().join("runs/study"));
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        assert_eq!(row["status"], "to the end");
+        assert!(["error", "solve_s", "setup_s", "reading_s"].iter().all(|part| number(row, part) > 0.0), "{row:?}");
+    }
+    for pair in rows.chunks(2) {
+        let (coarse, fine) = (number(&pair[0], "error"), number(&pair[1], "error"));
+        assert!(fine < 0.5 * coarse, "{fine} with fine points, {coarse} with coarse ones");
+    }
 }

@@ -34,3 +34,13 @@ pub fn cavity_of(n: usize, overrides: &[&str]) -> Case {
     let spacing = format!("cloud.spacing={:e}", 1.0 / n as f64);
     cavity(&[overrides, &[spacing.as_str()]].concat())
 }
+
+/// A problem without time, on jittered points, `n` spacings to a metre.
+#[allow(dead_code, reason = "not every file of tests goes through it")]
+pub fn problem(n: usize, overrides: &[&str]) -> Case {
+    let text = "title = \"Problem\"\ndomain = { width = 1.0, height = 1.0 }\nfluid = { density = 1.0 }\n\
+                cloud = { arrangement = \"jittered\", spacing = 0.05 }\noutput = { pictures = false }\n";
+    let spacing = format!("cloud.spacing={:e}", 1.0 / n as f64);
+    let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).chain([spacing]).collect();
+    Case::from_text(text, Path::new("problem.toml"), &overrides).expect("a case")
+}

@@ -23,7 +23,11 @@ fn next(operation: Operation) -> Option<Operation> {
         Factorise(Standing) => Factorise(Moved),
         Factorise(Moved) => WidenSupport(Standing),
         WidenSupport(Standing) => WidenSupport(Moved),
-        WidenSupport(Moved) => AssembleCollocated,
+        WidenSupport(Moved) => AssembleLaplacian,
+        AssembleLaplacian => AssembleGradient,
+        AssembleGradient => AssembleIntegralLaplacian,
+        AssembleIntegralLaplacian => AssembleIntegralGradient,
+        AssembleIntegralGradient => AssembleCollocated,
         AssembleCollocated => FitVelocity(Standing),
         FitVelocity(Standing) => FitVelocity(Moved),
         FitVelocity(Moved) => RemapDeparture,
@@ -44,7 +48,10 @@ fn next(operation: Operation) -> Option<Operation> {
         CorrectByFit => CorrectByAdjoint,
         CorrectByAdjoint => HoldWalls,
         HoldWalls => Reflect,
-        Reflect => return None,
+        Reflect => Average,
+        Average => Gradient,
+        Gradient => Laplacian,
+        Laplacian => return None,
     })
 }
 

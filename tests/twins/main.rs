@@ -13,6 +13,7 @@ mod spoiled;
 mod compare;
 mod coverage;
 mod engines;
+mod forms;
 mod memory;
 mod operations;
 mod runs;

@@ -7,7 +7,7 @@ use glam::DVec2;
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
-use crate::cases::cavity_of;
+use crate::cases::{cavity_of, problem};
 
 /// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
 const ACROSS: usize = 16;
@@ -17,7 +17,7 @@ const ACROSS: usize = 16;
 const TIGHT: &str = "effects.pressure.tolerance=1e-9";
 
 /// What each scene changes in the cavity, by name.
-const CHANGES: [(&str, &[&str]); 8] = [
+const CHANGES: [(&str, &[&str]); 10] = [
     ("regular, conservative, departure, reflection, fit, cg", &[]),
     (
         "jittered, adjoint, cg, no weight",
@@ -59,7 +59,27 @@ const CHANGES: [(&str, &[&str]); 8] = [
             "effects.pressure.solver=direct",
         ],
     ),
+    ("jittered, order 3", &["cloud.arrangement=jittered", "method.order=3"]),
+    (
+        "random, order 4, collocated, forward, projection",
+        &[
+            "cloud.arrangement=random",
+            "method.order=4",
+            "method.weight=quadratic",
+            "effects.pressure.form=collocated",
+            "effects.pressure.solver=direct",
+            "effects.advection.remap=forward",
+            "time.splitting=projection",
+        ],
+    ),
     ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
+];
+
+/// Problems without time.
+const PROBLEMS: [(&str, &[&str]); 3] = [
+    ("derivatives, interpolation", &["derivatives.field=waves"]),
+    ("derivatives, integral", &["derivatives.field=waves", "method.operators=integral"]),
+    ("derivatives, order 4", &["derivatives.field=waves", "method.order=4"]),
 ];
 
 /// Every scene, with its name.
@@ -68,7 +88,15 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
     scenes.push(("no advection", Arc::new(Scene::build(&still).expect("a scene"))));
-    scenes.push(("rows of points", Arc::new(ladder())));
+    let mut linear = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
+    linear.effects.viscosity = None;
+    (linear.method.order, linear.method.radius) = (1, Some(2.1));
+    scenes.push(("no viscosity, order 1", Arc::new(Scene::build(&linear).expect("a scene"))));
+    for (name, changes) in PROBLEMS {
+        scenes.push((name, Arc::new(Scene::build(&problem(ACROSS, changes)).expect("a scene"))));
+    }
+    scenes.push(("rows of points", Arc::new(ladder(2))));
+    scenes.push(("rows of points, order 4", Arc::new(ladder(4))));
     // The sums over workgroups take more than one round, and more than one tile of cells.
     let many = cavity_of(144, &["cloud.arrangement=jittered", TIGHT]);
     scenes.push(("many points", Arc::new(Scene::build(&many).expect("a scene"))));
@@ -81,10 +109,14 @@ pub fn of(changes: &[&str]) -> Scene {
 }
 
 /// Groups of points out of each other's sight whose fits stand on every rung of the ladder: a dense patch that makes room for
-/// long lists; one row; two rows; two rows with a third that only a wider radius reaches, of each width. No pressure, no walls.
-fn ladder() -> Scene {
+/// long lists; one row to four, of which no fit of a higher order is made; two rows with a third that only a wider radius
+/// reaches, of each width. No pressure, no walls.
+fn ladder(order: usize) -> Scene {
+    // Enough points even at the ends of a row.
+    let (along, radius) = if order == 2 { (0.5, 2.6) } else { (0.2, 2.95) };
+    let count = (6.0 / along) as u32;
     let rows = |corner: DVec2, across: &[f64]| -> Vec<DVec2> {
-        across.iter().flat_map(|&y| (0..13).map(move |k| corner + DVec2::new(0.5 * f64::from(k), y))).collect()
+        across.iter().flat_map(|&y| (0..=count).map(move |k| corner + DVec2::new(along * f64::from(k), y))).collect()
     };
     let dense: Vec<f64> = (0..13).map(|k| 0.5 * f64::from(k)).collect();
     let position = [
@@ -94,11 +126,14 @@ fn ladder() -> Scene {
         rows(DVec2::new(22.0, 22.0), &[0.0, 0.5, 3.0]),
         rows(DVec2::new(12.0, 13.0), &[0.0, 0.5, 3.8]),
         rows(DVec2::new(32.0, 32.0), &[0.0, 0.5, 5.0]),
+        rows(DVec2::new(2.0, 32.0), &[0.0, 0.5, 1.0]),
+        rows(DVec2::new(12.0, 22.0), &[0.0, 0.5, 1.0, 1.5]),
     ]
     .concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
     let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size };
     let mut case = cavity_of(1, &["domain.width=40.0", "domain.height=40.0"]);
     case.effects.pressure = None;
+    (case.method.order, case.method.radius) = (order, Some(radius));
     Scene::with_cloud(&case, cloud).expect("a scene")
 }

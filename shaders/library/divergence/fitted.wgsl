@@ -13,5 +13,5 @@ fn divergence_of(i: u32) -> real {
         return real(0.0);
     }
     let a = fit(i);
-    return a.per * (a.a1.x + a.a2.y);
+    return (a.a0.x + a.a1.y) / support[i];
 }

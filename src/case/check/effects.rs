@@ -1,24 +1,74 @@
 //! Checks of the effects, and of the method and the time step where they depend on them.
 
 use super::super::fault::Fault;
-use super::super::{Case, Effects, Pressure, PressureForm, Remap, Solver};
+use super::super::{Case, Effects, Operators, Pressure, PressureForm, Problem, Remap, Solver, Time};
 use super::require;
 
 /// Largest displacement of a forward remap, in spacings: beyond, its worst mode grows in every step.
 const FORWARD_COURANT: f64 = 1.0;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    if case.problem() != Problem::Flow {
+        return check_problem(case);
+    }
+    if case.method.operators == Operators::Integral
+        && case.effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated)
+    {
+        let reason = "must be \"interpolation\" with effects.pressure.form = \"collocated\", whose rows are fits";
+        return Err(Fault::reason("method.operators", reason));
+    }
     if case.effects == Effects::default() {
         let reason = "nothing to compute: give at least one of effects.viscosity, effects.pressure, effects.advection";
         return Err(Fault::reason("effects", reason));
     }
     if let Some(viscosity) = &case.effects.viscosity {
+        second_derivatives(case, "effects.viscosity")?;
         require(viscosity.kinematic > 0.0, "effects.viscosity.kinematic")?;
     }
     if let Some(pressure) = &case.effects.pressure {
         check_pressure(pressure)?;
+        if pressure.form == PressureForm::Collocated {
+            second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
+        }
     }
     check_remap(case)
+}
+
+/// Problems without time: what they leave no room for, and what they need.
+fn check_problem(case: &Case) -> Result<(), Fault> {
+    let Effects { viscosity, pressure, advection } = &case.effects;
+    let name = if case.derivatives.is_some() { "derivatives" } else { "poisson" };
+    let stray = |key: &str| Err(Fault::reason(key, format!("belongs to a flow, and there is [{name}]; leave one out")));
+    if case.derivatives.is_some() && case.poisson.is_some() {
+        return Err(Fault::reason("poisson", "a case has one problem, and there is [derivatives]; leave one out"));
+    }
+    if case.time != Time::default() {
+        return stray("time");
+    }
+    if viscosity.is_some() || advection.is_some() || (pressure.is_some() && case.derivatives.is_some()) {
+        return stray("effects");
+    }
+    let Some(pressure) = (match case.problem() {
+        Problem::Poisson(_) => pressure.as_ref(),
+        _ => return Ok(()),
+    }) else {
+        return Err(Fault::reason("poisson", "needs the table [effects.pressure], which says how it is solved"));
+    };
+    if case.method.operators == Operators::Integral {
+        return Err(Fault::reason("method.operators", "must be \"interpolation\" with [poisson]"));
+    }
+    if pressure.form == PressureForm::Collocated {
+        second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
+    }
+    check_pressure(pressure)
+}
+
+/// A fit of order 1 has none.
+fn second_derivatives(case: &Case, needs: &str) -> Result<(), Fault> {
+    if case.method.order > 1 {
+        return Ok(());
+    }
+    Err(Fault::reason("method.order", format!("must be 2, 3 or 4 with {needs}, which needs second derivatives")))
 }
 
 fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {

@@ -28,7 +28,8 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     check_arrangement(cloud)?;
     require(case.fluid.density > 0.0, "fluid.density")?;
     check_walls(case)?;
-    let radius = case.method.radius;
+    require((1..=4).contains(&case.method.order), "method.order")?;
+    let radius = case.method.radius();
     require(radius > SMALLEST_RADIUS && radius <= LARGEST_RADIUS, "method.radius")
 }
 

@@ -4,8 +4,8 @@ mod effects;
 mod expectations;
 mod layout;
 
-use super::Case;
 use super::fault::Fault;
+use super::{Case, Problem};
 
 pub(super) use expectations::check_profiles;
 pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
@@ -18,7 +18,9 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
     effects::check(case)?;
-    check_time(case)?;
+    if case.problem() == Problem::Flow {
+        check_time(case)?;
+    }
     require(case.output.report_every >= 1, "output.report_every")?;
     expectations::check(case)
 }

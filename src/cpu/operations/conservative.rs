@@ -5,7 +5,6 @@
 //! The matrix is symmetric, its off-diagonal entries are not positive, and its null space is exactly the constants.
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::derivative::packs;
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
 
@@ -94,7 +93,7 @@ pub fn correct_by_adjoint<T: Real>(
 ) {
     let factor = T::Pack::splat(T::from_f64(-0.5) * dt_per_density);
     blocks::for_each(intermediate, 2, &|block, out| {
-        for i in packs::<T>(block, end) {
+        for i in blocks::packs::<T>(block, end) {
             let own = T::Pack::load_vectors(&position[2 * i..]);
             let own_pressure = T::Pack::load(&pressure[i..]);
             let mut sum = [T::Pack::zero(); 2];

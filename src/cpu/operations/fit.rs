@@ -1,34 +1,34 @@
 //! The normal equations of every point, factorised, and the ladder for points whose equations are too weak.
 
+use crate::case::Weight;
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::moments::{self, FACTOR, Moments, PIVOT_THRESHOLD, WeightFunction};
+use crate::cpu::operations::moments::{self, LARGEST_ORDER, Moments, PIVOT_THRESHOLD};
 use crate::cpu::operations::neighbours::Search;
+use crate::cpu::operations::rows::Lists;
 use crate::cpu::real::{One, Pack, Real};
 use crate::step::Rung;
 
-/// Forms and factorises the 5x5 normal matrix of every point.
+/// Forms and factorises the normal matrix of every point.
 ///
 /// `rung` becomes 0 where every pivot passed, else [`Rung::FAILED`]: those points are left to [`widen_support`].
-pub fn factorise<T: Real>(
+pub fn factorise<T: Real, const N: usize, const F: usize, const M: usize>(
     position: &[T],
     support: &[T],
-    neighbours: &[u32],
-    count: &[u32],
-    capacity: usize,
-    weight: impl WeightFunction,
+    lists: Lists,
+    weight: Weight,
     factor: &mut [T],
     rung: &mut [u32],
 ) {
-    blocks::for_each_2((factor, FACTOR), (rung, 1), &|block, factor, rung| {
+    blocks::for_each_2((factor, F), (rung, 1), &|block, factor, rung| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
-            let i = block * BLOCK + first;
-            let stencil = Stencil::new(position, support, neighbours, count, capacity, i);
-            let mut sums = Moments::<T::Pack>::zero();
-            stencil.for_each(|_, [x, y], square| sums.add(x, y, weight.weight(square)));
-            let (entries, least) = moments::factorise(sums.matrix());
+            let stencil = Stencil::new(position, support, lists, block * BLOCK + first);
+            let mut sums = Moments::<T::Pack, M>::zero();
+            stencil.for_each(|_, [x, y], square| sums.add(x, y, moments::weight(weight, square)));
+            let (entries, pivots): (_, [T::Pack; N]) = moments::factorise(sums.matrix::<F>());
             for (k, entry) in entries.into_iter().enumerate() {
                 entry.store(&mut factor[k * BLOCK + first..]);
             }
+            let least = moments::least(&pivots);
             for lane in 0..T::Pack::LANES {
                 let passed = least.lane(lane) > T::from_f64(PIVOT_THRESHOLD);
                 rung[first + lane] = if passed { 0 } else { Rung::FAILED };
@@ -40,133 +40,103 @@ pub fn factorise<T: Real>(
 /// A pack of points with their neighbours, in scaled coordinates.
 pub struct Stencil<'a, T: Real> {
     position: &'a [T],
-    neighbours: &'a [u32],
+    lists: Lists<'a>,
+    i: usize,
     own: [T::Pack; 2],
     /// `1 / r_e` of each point.
     pub per_support: T::Pack,
-    first: usize,
-    rows: usize,
 }
 
 impl<'a, T: Real> Stencil<'a, T> {
     /// The points `i..i + LANES`. Slots past a point's own count hold the point itself and so add nothing to any sum.
     #[inline(always)]
-    pub fn new(
-        position: &'a [T],
-        support: &[T],
-        neighbours: &'a [u32],
-        count: &[u32],
-        capacity: usize,
-        i: usize,
-    ) -> Self {
-        let rows = count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0) as usize;
-        Self {
-            position,
-            neighbours,
-            own: T::Pack::load_vectors(&position[2 * i..]),
-            per_support: T::Pack::splat(T::from_f64(1.0)) / T::Pack::load(&support[i..]),
-            first: blocks::at(i, 0, capacity),
-            rows: rows.min(capacity),
-        }
+    pub fn new(position: &'a [T], support: &[T], lists: Lists<'a>, i: usize) -> Self {
+        let own = T::Pack::load_vectors(&position[2 * i..]);
+        let per_support = T::Pack::splat(T::from_f64(1.0)) / T::Pack::load(&support[i..]);
+        Self { position, lists, i, own, per_support }
     }
 
     /// Calls `body(indexes, scaled offset, its square)` for every slot.
     #[inline(always)]
     pub fn for_each(&self, mut body: impl FnMut(&[u32], [T::Pack; 2], T::Pack)) {
-        for slot in 0..self.rows {
-            let start = self.first + slot * BLOCK;
-            let index = &self.neighbours[start..start + T::Pack::LANES];
+        self.lists.for_each::<T>(self.i, |_, index| {
             // SAFETY: every stored neighbour is below the number of points: the search puts nothing else there, and
             // `Fields::write` checks what comes from outside.
             let [x, y] = unsafe { T::Pack::gather_vectors(self.position, index) };
             let x = (x - self.own[0]) * self.per_support;
             let y = (y - self.own[1]) * self.per_support;
             body(index, [x, y], x * x + y * y);
-        }
+        });
     }
 }
 
-/// Points whose normal matrix failed the pivot test step down the ladder: a wider radius, up to
-/// [`Rung::WIDEST`]; then the linear fit; then the nearest value, which is no fit at all.
-///
-/// Returns how many points stand on each rung: widened, linear, nearest.
-pub fn widen_support<T: Real>(
+/// Points whose normal matrix failed the pivot test step down the ladder: a wider radius, up to the last of
+/// [`Rung::WIDER`]; then fits of lower orders, down to the linear one; then the nearest value, which is no fit at all.
+pub fn widen_support<T: Real, const N: usize, const F: usize, const M: usize>(
     search: Search<T>,
     capacity: usize,
-    weight: impl WeightFunction,
+    weight: Weight,
     support: &mut [T],
     neighbours: &mut [u32],
     count: &mut [u32],
     factor: &mut [T],
     rung: &mut [u32],
-) -> [u32; 3] {
+) {
     let Search { position, points, .. } = search;
-    let mut tally = [0; 3];
-    let threshold = T::from_f64(PIVOT_THRESHOLD);
     for i in (0..rung.len()).filter(|&i| rung[i] == Rung::FAILED).collect::<Vec<_>>() {
         if i >= points {
             rung[i] = 0;
-            (0..FACTOR).for_each(|k| factor[blocks::at(i, k, FACTOR)] = T::zero());
+            (0..F).for_each(|k| factor[blocks::at(i, k, F)] = T::zero());
             continue;
         }
-        let radius = support[i];
         let offset = |j: u32, per: T| {
             let j = j as usize;
             [(position[2 * j] - position[2 * i]) * per, (position[2 * j + 1] - position[2 * i + 1]) * per]
         };
-        let fit = |found: &[u32], radius: T| {
+        let fit = |found: &[u32], radius: T| -> ([One<T>; F], [One<T>; N]) {
             let per = T::from_f64(1.0) / radius;
-            let mut sums = Moments::<One<T>>::zero();
+            let mut sums = Moments::<One<T>, M>::zero();
             for &j in found {
-                let [x, y] = offset(j, per);
-                let (x, y) = (One(x), One(y));
-                sums.add(x, y, weight.weight(x * x + y * y));
+                let [x, y] = offset(j, per).map(One);
+                sums.add(x, y, moments::weight(weight, x * x + y * y));
             }
-            sums.matrix()
+            moments::factorise(sums.matrix())
         };
+        let passed = |pivots: &[One<T>]| moments::least(pivots).0 > T::from_f64(PIVOT_THRESHOLD);
         let mut reached = None;
         let mut found = Vec::new();
         for (step, wider) in Rung::WIDER.iter().enumerate() {
-            let radius = radius * T::from_f64(*wider);
+            let radius = support[i] * T::from_f64(*wider);
             found.clear();
             search.within(i, radius, |j| found.push(j));
             if found.len() > capacity {
                 break;
             }
-            let (entries, least) = moments::factorise(fit(&found, radius));
-            if least.0 > threshold {
+            let (entries, pivots) = fit(&found, radius);
+            if passed(&pivots) {
                 reached = Some((step as u32 + 1, radius, entries));
                 break;
             }
         }
         let (step, radius, entries) = reached.unwrap_or_else(|| {
             found.clear();
-            found.extend((0..(count[i] as usize).min(capacity)).map(|slot| neighbours[blocks::at(i, slot, capacity)]));
-            let mut matrix = fit(&found, radius);
-            matrix[3..].fill(One(T::zero()));
-            let (mut entries, _) = moments::factorise(matrix);
-            let [xx, xy, yy] = [matrix[0].0, matrix[1].0, matrix[2].0];
-            // The factor of a singular matrix is rubbish; its second pivot tells.
-            let second = if xx > T::zero() { yy - xy * xy / xx } else { T::zero() };
-            let step = if xx > T::zero() && second > threshold * yy {
-                entries[3..].fill(One(T::zero()));
-                Rung::LINEAR
-            } else {
-                entries.fill(One(T::zero()));
-                Rung::NEAREST
-            };
-            (step, radius, entries)
+            search.within(i, support[i], |j| found.push(j));
+            found.truncate(capacity);
+            let (mut entries, pivots) = fit(&found, support[i]);
+            let lower = (1..=LARGEST_ORDER).rev().map(|order| (order, moments::coefficients(order)));
+            let carried = lower.into_iter().find(|&(_, kept)| kept < N && passed(&pivots[..kept]));
+            let (step, kept) = carried.map_or((Rung::NEAREST, 0), |(order, kept)| (Rung::lowered(order as u32), kept));
+            entries[moments::entries(kept)..].fill(One(T::zero()));
+            (step, support[i], entries)
         });
         support[i] = radius;
         rung[i] = step;
-        tally[if step < Rung::LINEAR { 0 } else { (step - Rung::LINEAR + 1) as usize }] += 1;
         count[i] = found.len() as u32;
         for slot in 0..capacity {
             neighbours[blocks::at(i, slot, capacity)] = found.get(slot).copied().unwrap_or(i as u32);
         }
         for (k, entry) in entries.into_iter().enumerate() {
-            factor[blocks::at(i, k, FACTOR)] = entry.0;
+            factor[blocks::at(i, k, F)] = entry.0;
         }
     }
-    tally
 }

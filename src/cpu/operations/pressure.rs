@@ -20,6 +20,8 @@ pub struct Stop {
     /// Root mean square of the residual, as a density `r_i / V_i`, at which the solve is done.
     pub residual: f64,
     pub max_iterations: u32,
+    /// Rounding units of the diagonal's product below which a residual is as small as it gets.
+    pub floor: f64,
 }
 
 impl Stop {
@@ -27,8 +29,10 @@ impl Stop {
     pub const PATIENCE: u32 = 250;
     /// Times that a solve may begin again from a recomputed residual that is not what the recurrence promised.
     pub const RESTARTS: u32 = 3;
-    /// A residual below this many rounding units of the diagonal's product is as small as it gets.
-    pub const FLOOR: f64 = 4.0;
+    /// [`Stop::floor`] of the conservative matrix, with about 6 entries a row.
+    pub const CONSERVATIVE_FLOOR: f64 = 4.0;
+    /// And of the collocated one: four times the entries, of either sign, round twice as far.
+    pub const COLLOCATED_FLOOR: f64 = 8.0;
 }
 
 /// Whether to go on.
@@ -57,7 +61,7 @@ impl Monitor {
 
     fn reached<T: Real>(&self, square: f64, scale: f64) -> (f64, bool) {
         let rms = |square: f64| (square / self.points as f64).sqrt();
-        let floor = Stop::FLOOR * T::EPSILON.to_f64() * rms(scale);
+        let floor = self.stop.floor * T::EPSILON.to_f64() * rms(scale);
         (rms(square), rms(square) <= self.stop.residual.max(floor))
     }
 

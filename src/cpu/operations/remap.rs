@@ -4,12 +4,12 @@
 //! to; a fit (2.5) there is evaluated where the points stand.
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::moments::COEFFICIENTS;
-use crate::cpu::real::Real;
+use crate::cpu::operations::moments;
+use crate::cpu::real::{One, Real};
 
 /// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity being that
 /// at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
-pub fn remap_departure<T: Real>(
+pub fn remap_departure<T: Real, const N: usize>(
     position: &[T],
     support: &[T],
     around: Around,
@@ -20,7 +20,7 @@ pub fn remap_departure<T: Real>(
     end: usize,
     velocity: &mut [T],
 ) {
-    let evaluate = |j, place| evaluate(position, support, values, coefficients, j, place);
+    let evaluate = |j, place| evaluate::<T, N>(position, support, values, coefficients, j, place);
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
             let here = [position[2 * i], position[2 * i + 1]];
@@ -40,9 +40,9 @@ pub fn remap_departure<T: Real>(
     });
 }
 
-/// The fit of point `j` at `place`: its value and its five coefficients.
+/// The fit of point `j` at `place`: its value and its `N` coefficients.
 #[inline(always)]
-fn evaluate<T: Real>(
+fn evaluate<T: Real, const N: usize>(
     position: &[T],
     support: &[T],
     values: &[T],
@@ -52,12 +52,12 @@ fn evaluate<T: Real>(
 ) -> [T; 2] {
     let per = T::from_f64(1.0) / support[j];
     let (x, y) = ((place[0] - position[2 * j]) * per, (place[1] - position[2 * j + 1]) * per);
-    let basis = [x, y, x * x, x * y, y * y];
-    let first = blocks::at(j, 0, 2 * COEFFICIENTS);
+    let basis: [One<T>; N] = moments::basis(One(x), One(y));
+    let first = blocks::at(j, 0, 2 * N);
     let part = |c: usize| {
         let mut sum = values[2 * j + c];
         for (k, term) in basis.into_iter().enumerate() {
-            sum += coefficients[first + (c * COEFFICIENTS + k) * BLOCK] * term;
+            sum += coefficients[first + (c * N + k) * BLOCK] * term.0;
         }
         sum
     };
@@ -110,7 +110,7 @@ pub fn move_points<T: Real>(standing: &[T], velocity: &[T], dt: T, interior: usi
 }
 
 /// The paper's remap: the fit of each moved point, evaluated at its standing place `r0`, that is at `r0 - r'`.
-pub fn remap_forward<T: Real>(
+pub fn remap_forward<T: Real, const N: usize>(
     standing: &[T],
     moved: &[T],
     support: &[T],
@@ -122,7 +122,7 @@ pub fn remap_forward<T: Real>(
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
             let place = [standing[2 * i], standing[2 * i + 1]];
-            let value = evaluate(moved, support, values, coefficients, i, place);
+            let value = evaluate::<T, N>(moved, support, values, coefficients, i, place);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }

@@ -75,6 +75,8 @@ fn the_scenes_of_the_tests_use_every_operation() {
         scenes().iter().flat_map(|scene| scene.plan.operations().collect::<Vec<_>>()).collect();
     let both = |operation: fn(Points) -> Operation| [operation(Points::Standing), operation(Points::Moved)];
     let mut all: BTreeSet<Operation> = [
+        Operation::AssembleLaplacian,
+        Operation::AssembleGradient,
         Operation::AssembleCollocated,
         Operation::RemapDeparture,
         Operation::MovePoints,

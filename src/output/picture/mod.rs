@@ -7,6 +7,7 @@ mod colour;
 mod cost;
 mod frame;
 mod map;
+mod panels;
 mod pressure;
 mod scale;
 mod speed;
@@ -20,13 +21,18 @@ use std::path::PathBuf;
 pub use cost::draw_cost;
 pub use ticks::short;
 
+use canvas::Canvas;
+use panels::Shown;
+
 use super::file::check;
 use super::{OutputError, RunFolder};
-use crate::case::Case;
+use crate::case::{Case, Problem};
+use crate::comparison::Panel;
+use crate::known::Known;
 use crate::measure::Profile;
 use crate::snapshot::Snapshot;
 
-/// Draws `pressure.png`, `speed.png` and `centreline.png` into a run's folder and returns their paths. `profiles` holds
+/// Draws `pressure.png`, and of a flow `speed.png` and `centreline.png`, into a run's folder and returns their paths. `profiles` holds
 /// the published profiles by the name of their expectation; one that is missing is left out of the picture.
 ///
 /// # Errors
@@ -39,19 +45,40 @@ pub fn draw_all(
 ) -> Result<Vec<PathBuf>, OutputError> {
     check(snapshot)?;
     let text = text::Text::new()?;
-    let title = format!("{}, t = {} s", case.title, ticks::short(snapshot.time, 4));
-    let drawn = [
-        (folder.pressure_picture(), pressure::draw(&text, case, snapshot, &title)?),
-        (folder.speed_picture(), speed::draw(&text, case, snapshot, &title)?),
-        (folder.centreline_picture(), centreline::draw(&text, case, snapshot, profiles, &title)?),
-    ];
-    drawn
-        .into_iter()
-        .map(|(path, canvas)| {
-            canvas.save(&path)?;
-            Ok(path)
-        })
-        .collect()
+    let time = format!(", t = {} s", ticks::short(snapshot.time, 4));
+    let title = format!("{}{}", case.title, if case.problem() == Problem::Flow { &time } else { "" });
+    let mut drawn = vec![(folder.pressure_picture(), pressure::draw(&text, case, snapshot, &title)?)];
+    if case.problem() == Problem::Flow {
+        drawn.push((folder.speed_picture(), speed::draw(&text, case, snapshot, &title)?));
+        drawn.push((folder.centreline_picture(), centreline::draw(&text, case, snapshot, profiles, &title)?));
+    }
+    save_all(drawn)
+}
+
+/// Draws `gradient.png` and `laplacian.png` of a known field, both families of operators side by side.
+///
+/// # Errors
+/// Errors of the file system.
+pub fn draw_comparison(
+    folder: &RunFolder,
+    case: &Case,
+    known: &Known,
+    panels: &[Panel],
+) -> Result<Vec<PathBuf>, OutputError> {
+    let text = text::Text::new()?;
+    let places = panels.iter().flat_map(|panel| &panel.position);
+    let slopes: Vec<f64> = places.clone().map(|&place| known.gradient(place).x).collect();
+    let mut drawn = vec![(folder.gradient_picture(), panels::draw(&text, case, panels, Shown::Gradient, &slopes))];
+    if panels.iter().all(|panel| panel.laplacian_error.is_some()) {
+        let exact: Vec<f64> = places.map(|&place| known.laplacian(place)).collect();
+        drawn.push((folder.laplacian_picture(), panels::draw(&text, case, panels, Shown::Laplacian, &exact)));
+    }
+    save_all(drawn)
+}
+
+fn save_all(drawn: impl IntoIterator<Item = (PathBuf, Canvas)>) -> Result<Vec<PathBuf>, OutputError> {
+    let save = |(path, canvas): (PathBuf, Canvas)| canvas.save(&path).map(|()| path);
+    drawn.into_iter().map(save).collect()
 }
 
 #[cfg(test)]
@@ -74,6 +101,7 @@ mod tests {
             velocity: cloud.iter().map(|x| DVec2::new(x.y - 0.5, 0.5 - x.x)).collect(),
             pressure: cloud.iter().map(|x| x.distance(DVec2::splat(0.5)) - 0.3).collect(),
             position: cloud.into_iter().map(|x| x * size).collect(),
+            derivatives: None,
         };
         (case, snapshot)
     }
