@@ -96,7 +96,8 @@ impl<'a> Expansion<'a> {
         if !case.expect.contains_key(error) {
             let known: Vec<&str> = case.expect.keys().map(String::as_str).collect();
             let near = keys::closest(error, &known).map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
-            let reason = format!("{} has no [expect.{error}]{near}; it has {}", path.display(), known.join(", "));
+            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+            let reason = format!("{} has no [expect.{error}]{near}; it has {known}", path.display());
             return Err(fault(at, reason).into());
         }
         case.expect.retain(|name, _| name == error);

@@ -100,6 +100,10 @@ impl Panel {
     fn with_columns(mut self, text: &Text) -> Self {
         // Below the callouts there is room as well.
         let room = if self.heading.is_some() { self.size.x } else { self.size.x + CALLOUTS - EDGE };
+        self.heading = self.heading.map(|heading| text.cut(&heading, LABEL, self.size.x));
+        for group in &mut self.groups {
+            group.name = text.cut(&group.name, LEGEND, room - SIGN);
+        }
         self.columns = ((room / self.legend_width(text)) as usize).clamp(1, self.groups.len().max(1));
         self
     }
