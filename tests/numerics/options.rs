@@ -37,6 +37,9 @@ fn every_option_changes_the_answer() {
     let base = run(&[]);
     for changed in [
         "method.weight=none",
+        "method.order=3",
+        "method.order=4",
+        "method.operators=integral",
         "method.radius=3.1",
         "effects.viscosity.kinematic=0.011",
         "effects.pressure.form=collocated",

@@ -7,7 +7,7 @@ use stillpoint::known::Known;
 use stillpoint::step::{Buffer, Operation, Points};
 
 use crate::bench::{Bench, order};
-use crate::cases::{ARRANGEMENTS, cavity, problem};
+use crate::cases::problem;
 use crate::random::Random;
 
 /// A random polynomial about the middle of the domain: powers of x and of y, and their factors.
@@ -171,18 +171,5 @@ fn the_integral_form_is_the_formulas_of_the_paper() {
         assert!((average[i] - value).abs() < 1e-12, "value at {i}");
         assert!((gradient[i] - slope).length() < 1e-10, "gradient at {i}");
         assert!((laplacian[i] - curvature).abs() < 1e-8, "Laplacian at {i}");
-    }
-}
-
-#[test]
-fn a_flow_by_weighted_means_is_another_flow() {
-    for (name, arrangement) in ARRANGEMENTS {
-        let plans = ["interpolation", "integral"].map(|form| {
-            let form = format!("method.operators={form}");
-            Bench::new(&cavity(&[arrangement, &[&form]].concat()))
-        });
-        let [mut fits, mut means] = plans;
-        assert!(means.scene.plan.setup.contains(&Operation::AssembleIntegralLaplacian), "{name}");
-        assert_ne!(fits.reals(Buffer::LaplacianRow), means.reals(Buffer::LaplacianRow), "{name}");
     }
 }
