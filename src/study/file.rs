@@ -60,6 +60,8 @@ pub enum Clock {
     /// User and system time of the process.
     Cpu,
     Wall,
+    /// Of the engine's operations alone, those of the setup among them: what points that move would pay in every step.
+    Engine,
 }
 
 fn default_targets() -> Vec<f64> {

@@ -12,7 +12,7 @@ const ALLOWED: &Words = &[
     ("title", "one line of text that names the study"),
     ("case", "the path of a case file, from the study file's folder"),
     ("error", "the NAME of an [expect.NAME] of the case"),
-    ("seconds", r#""cpu" or "wall""#),
+    ("seconds", r#""cpu", "wall" or "engine""#),
     ("targets", "a list of numbers above 0, relative errors"),
     ("along", "a key that is varied"),
     ("repeats", "a whole number from 1 to 1000"),

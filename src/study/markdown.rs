@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
-use super::{Clock, Row, Table};
+use super::{Row, Table};
 use crate::output::OutputError;
 use crate::output::file::write_whole;
 use crate::output::picture::short;
@@ -53,10 +53,7 @@ fn named(table: &Table, first: &str, row: &Row) -> String {
 }
 
 fn full(table: &Table, row: &Row) -> String {
-    let seconds = match table.seconds {
-        Clock::Cpu => row.cpu,
-        Clock::Wall => row.wall,
-    };
+    let seconds = table.seconds_of(row);
     let maybe = |value: Option<f64>| value.map_or("-".to_owned(), plain);
     let error = row.error.map_or("-".to_owned(), percent);
     let spread = format!("{} to {}", plain(seconds.least), plain(seconds.most));

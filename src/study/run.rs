@@ -38,6 +38,9 @@ pub struct RunSeconds {
     pub wall: f64,
     /// User and system time of the process.
     pub cpu: f64,
+    /// All operations of the engine, those of the setup among them; none where it takes no times.
+    #[serde(default)]
+    pub engine: Option<f64>,
     /// Points, geometry, arrays, compiled kernels, the setup operations.
     pub setup: f64,
     pub stepping: f64,
@@ -145,6 +148,7 @@ impl Trial {
         let seconds = RunSeconds {
             wall: wall.elapsed().as_secs_f64(),
             cpu: cpu.elapsed().as_secs_f64(),
+            engine: parts.all,
             setup: opened + outcome.setup.as_secs_f64(),
             stepping: outcome.stepping.as_secs_f64(),
             solve: parts.solve,

@@ -47,6 +47,8 @@ pub struct Row {
     pub error: Option<f64>,
     pub wall: Spread,
     pub cpu: Spread,
+    /// Of all operations of the engine; zeros where it takes no times.
+    pub engine: Spread,
     /// Medians, s.
     pub setup: f64,
     pub stepping: f64,
@@ -79,6 +81,7 @@ fn row(study: &Study, setting: &Setting, keys: &[String], runs: &[Run]) -> Row {
         error: last.and_then(|run| run.error),
         wall: seconds(|seconds| seconds.wall),
         cpu: seconds(|seconds| seconds.cpu),
+        engine: seconds(|seconds| seconds.engine.unwrap_or(0.0)),
         setup: seconds(|seconds| seconds.setup).median,
         stepping: seconds(|seconds| seconds.stepping).median,
         solve: part(|seconds| seconds.solve),
@@ -142,12 +145,18 @@ impl Table {
             keys,
         }
     }
-    /// The error and the seconds of a row, where it can stand in a picture.
-    pub fn place(&self, row: &Row) -> Option<(f64, Spread)> {
-        let spread = match self.seconds {
+    /// The seconds that count.
+    pub fn seconds_of(&self, row: &Row) -> Spread {
+        match self.seconds {
             Clock::Cpu => row.cpu,
             Clock::Wall => row.wall,
-        };
+            Clock::Engine => row.engine,
+        }
+    }
+
+    /// The error and the seconds of a row, where it can stand in a picture.
+    pub fn place(&self, row: &Row) -> Option<(f64, Spread)> {
+        let spread = self.seconds_of(row);
         let error = row.error?.max(LEAST);
         (spread.median > 0.0).then_some((error, spread))
     }
@@ -210,6 +219,7 @@ impl Clock {
         match self {
             Clock::Cpu => "CPU time",
             Clock::Wall => "wall-clock time",
+            Clock::Engine => "time of the operations",
         }
     }
 }
@@ -232,6 +242,7 @@ pub(crate) mod tests {
             error: *error,
             wall: Spread { median: 2.0 * seconds, least: *seconds, most: 3.0 * seconds },
             cpu: Spread { median: *seconds, least: 0.9 * seconds, most: 1.2 * seconds },
+            engine: Spread { median: 0.5 * seconds, least: 0.25 * seconds, most: *seconds },
             setup: 0.01,
             stepping: 0.5,
             solve: Some(0.25),

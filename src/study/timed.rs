@@ -18,6 +18,8 @@ pub(super) struct Timed<'a> {
 /// Seconds of the parts of the steps; the operations' are none where the engine takes no times.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Parts {
+    /// All operations, of the setup and of the steps.
+    pub all: Option<f64>,
     /// All pressure solves, a factorisation among them.
     pub solve: Option<f64>,
     /// The other operations of the steps.
@@ -34,7 +36,7 @@ impl<'a> Timed<'a> {
     pub fn parts(&self) -> Parts {
         let all = self.inner.seconds();
         if all.is_empty() {
-            return Parts { solve: None, operations: None, reading: self.reading };
+            return Parts { reading: self.reading, ..Parts::default() };
         }
         let (mut solve, mut operations) = (0.0, 0.0);
         let repeated = |operation| self.plan.drift.contains(operation) || self.plan.kick.contains(operation);
@@ -50,7 +52,8 @@ impl<'a> Timed<'a> {
         if !repeated(&Operation::DirectSolve) {
             solve += all.get(&Operation::DirectSolve).unwrap_or(&0.0);
         }
-        Parts { solve: Some(solve), operations: Some(operations), reading: self.reading }
+        let total = all.values().sum();
+        Parts { all: Some(total), solve: Some(solve), operations: Some(operations), reading: self.reading }
     }
 
     fn read_timed<T>(&mut self, body: impl FnOnce(&mut dyn Engine) -> T) -> T {
