@@ -129,7 +129,10 @@ impl Panel {
             let (row, along) = (k / self.columns, k % self.columns);
             let offset = DVec2::new(along as f64 * column, BELOW + 10.0 + (row as f64 + 0.5) * ROW);
             let start = DVec2::new(low.x, plot.frame.high.y) + offset;
-            group.sign.draw_in_legend(canvas, start);
+            match lines {
+                true => group.sign.draw_in_legend(canvas, start),
+                false => group.sign.draw(canvas, start + 17.0 * DVec2::X),
+            }
             text.draw(canvas, &group.name, start + SIGN * DVec2::X, LEGEND, Anchor::Start, Direction::Rightwards);
         }
         plot
