@@ -1,5 +1,7 @@
 //! What both engines are to the rest: arrays to write and read, operations to apply, steps to advance.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::step::{Buffer, Operation};
@@ -119,6 +121,9 @@ pub enum EngineError {
     Direct(String),
 }
 
+/// Seconds spent in each operation.
+pub type Spent = BTreeMap<Operation, f64>;
+
 /// A place where steps are computed.
 pub trait Engine {
     fn info(&self) -> EngineInfo;
@@ -137,6 +142,11 @@ pub trait Engine {
 
     /// Of the last pressure solve.
     fn solve_info(&self) -> SolveInfo;
+
+    /// Seconds spent in each operation since the engine was made; empty where the engine takes no times.
+    fn seconds(&self) -> Spent {
+        Spent::default()
+    }
 
     /// Measures the projected velocity and remembers it; `elapsed` is the time since the last measurement, s.
     fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError>;

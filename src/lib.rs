@@ -17,3 +17,4 @@ pub mod scene;
 pub mod simulation;
 pub mod snapshot;
 pub mod step;
+pub mod study;

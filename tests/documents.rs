@@ -11,10 +11,10 @@ fn read(path: &str) -> String {
     fs::read_to_string(Path::new(ROOT).join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Keys and words of the table that error messages are made from: rows `("key", "words"),`.
-fn keys() -> BTreeSet<(String, String)> {
-    let source = read("src/case/keys.rs");
-    let table = source.split_once("ALLOWED: &[(&str, &str)] = &[").and_then(|(_, rest)| rest.split_once("];"));
+/// Keys and words of the table that error messages are made from: rows `("key", "words"),` behind `head`.
+fn keys(file: &str, head: &str) -> BTreeSet<(String, String)> {
+    let source = read(file);
+    let table = source.split_once(head).and_then(|(_, rest)| rest.split_once("];"));
     let (table, _) = table.expect("the table of keys");
     let rows = table.lines().filter_map(|line| line.trim().strip_prefix("(\"")?.strip_suffix("),"));
     rows.map(|row| {
@@ -25,20 +25,33 @@ fn keys() -> BTreeSet<(String, String)> {
     .collect()
 }
 
+/// The keys and words in the tables of a document; a name in capitals stands for any.
+fn described(document: &str) -> BTreeSet<(String, String)> {
+    let text = read(document);
+    let rows = text.lines().filter_map(|line| line.strip_prefix("| `")?.strip_suffix(" |"));
+    let keys = rows.filter_map(|row| {
+        let (key, rest) = row.split_once("` | ")?;
+        // A table of files has no defaults.
+        let (_, words) = rest.split_once(" | ")?;
+        let names = ["NAME", "SIDE", "KEY"];
+        let key = key.split('.').map(|name| if names.contains(&name) { "*" } else { name });
+        Some((key.collect::<Vec<_>>().join("."), words.to_owned()))
+    });
+    keys.collect()
+}
+
 #[test]
 fn case_files_md_has_every_key_with_the_words_of_its_errors_and_no_other() {
-    let text = read("docs/case_files.md");
-    let rows = text.lines().filter_map(|line| line.strip_prefix("| `")?.strip_suffix(" |"));
-    let described: BTreeSet<_> = rows
-        .map(|row| {
-            let (key, rest) = row.split_once("` | ").expect("a key");
-            let (_, words) = rest.split_once(" | ").expect("a default and words");
-            (key.replace("NAME", "*").replace("SIDE", "*"), words.to_owned())
-        })
-        .collect();
-    let keys = keys();
+    let keys = keys("src/case/keys.rs", "ALLOWED: &[(&str, &str)] = &[");
     assert!(keys.len() > 30, "read {} keys alone", keys.len());
-    assert_eq!(described, keys);
+    assert_eq!(described("docs/case_files.md"), keys);
+}
+
+#[test]
+fn studies_md_has_every_key_with_the_words_of_its_errors_and_no_other() {
+    let keys = keys("src/study/keys.rs", "ALLOWED: &Words = &[");
+    assert!(keys.len() > 20, "read {} keys alone", keys.len());
+    assert_eq!(described("docs/studies.md"), keys);
 }
 
 fn documents() -> Vec<String> {
@@ -72,17 +85,20 @@ fn every_link_and_every_file_named_is_there() {
     assert!(seen > 20, "{seen} paths alone");
 }
 
-fn cases() -> Vec<String> {
-    let entries = fs::read_dir(Path::new(ROOT).join("cases")).expect("cases/");
+fn toml_files(folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(Path::new(ROOT).join(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
     let names = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
     names.filter(|name| name.ends_with(".toml")).collect()
 }
 
 #[test]
-fn the_readme_lists_every_case() {
+fn the_readme_lists_every_case_and_every_study() {
     let readme = read("README.md");
-    for case in cases() {
+    for case in toml_files("cases") {
         assert!(readme.contains(&format!("| `{case}` |")), "{case} is not in the table");
+    }
+    for study in toml_files("cases/studies") {
+        assert!(readme.contains(&format!("| `studies/{study}` |")), "{study} is not in the table");
     }
 }
 
@@ -91,12 +107,12 @@ fn the_readme_lists_every_case() {
 #[test]
 fn the_commands_of_the_readme_are_what_the_program_takes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::create_dir_all(folder.path().join("cases/reference")).expect("a folder");
-    for (from, to) in [("cases", "cases"), ("cases/reference", "cases/reference")] {
+    for from in ["cases", "cases/reference", "cases/studies"] {
+        fs::create_dir_all(folder.path().join(from)).expect("a folder");
         for entry in fs::read_dir(Path::new(ROOT).join(from)).expect("cases") {
             let path = entry.expect("an entry").path();
             if let (true, Some(name)) = (path.is_file(), path.file_name()) {
-                fs::copy(&path, folder.path().join(to).join(name)).expect("a copy");
+                fs::copy(&path, folder.path().join(from).join(name)).expect("a copy");
             }
         }
     }
@@ -109,11 +125,16 @@ fn the_commands_of_the_readme_are_what_the_program_takes() {
         if words[0] == "run" {
             words.extend(["--set", "cloud.spacing=0.125", "--set", "time.end=0.2", "--set", "method.radius=2.8"]);
         }
+        if words[0] == "cost" {
+            words.extend(["--set", "set.time.end=0.2", "--set", "repeats=1"]);
+        }
         let output = Command::new(env!("CARGO_BIN_EXE_stillpoint")).args(&words).current_dir(folder.path()).output();
         let output = output.expect("the program starts");
         let message = String::from_utf8_lossy(&output.stderr);
         let code = output.status.code();
         assert!(code == Some(0) || (code == Some(1) && words[0] == "run"), "{words:?}: {code:?} {message}");
     }
-    assert!(folder.path().join("runs/cavity_re100_random/pressure.png").exists());
+    for picture in ["cavity_re100_random/pressure.png", "smoke/cost.png"] {
+        assert!(folder.path().join("runs").join(picture).exists(), "no {picture}");
+    }
 }

@@ -11,7 +11,7 @@ use toml::Value;
 use super::fault::Fault;
 
 /// Reads `value` as a `T`; a fault's path starts at `value`.
-pub(super) fn decode<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
+pub(crate) fn decode<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
     T::deserialize(Decoder(value))
 }
 

@@ -12,7 +12,7 @@ use super::fault::{KeyPath, dotted};
 /// Names in the longest dotted key that `--set` takes; the deepest key of a case has four.
 const DEEPEST: usize = 8;
 
-pub(super) struct Document {
+pub(crate) struct Document {
     file: PathBuf,
     root: Value,
     places: HashMap<KeyPath, Place>,
@@ -43,10 +43,24 @@ impl Document {
             let line = Some(line_at(key.span().start));
             path.push(key.get_ref().to_string());
             self.places.insert(path.clone(), Place::File { path: self.file.clone(), line });
-            if let DeValue::Table(inner) = value.get_ref() {
-                self.note_lines(inner, line_at, path);
-            }
+            self.note_inner_lines(value.get_ref(), line_at, path);
             path.pop();
+        }
+    }
+
+    fn note_inner_lines(&mut self, value: &DeValue<'_>, line_at: &dyn Fn(usize) -> usize, path: &mut KeyPath) {
+        match value {
+            DeValue::Table(inner) => self.note_lines(inner, line_at, path),
+            DeValue::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    path.push(format!("[{index}]"));
+                    let line = Some(line_at(item.span().start));
+                    self.places.insert(path.clone(), Place::File { path: self.file.clone(), line });
+                    self.note_inner_lines(item.get_ref(), line_at, path);
+                    path.pop();
+                }
+            }
+            _ => {}
         }
     }
 
@@ -78,28 +92,35 @@ impl Document {
         if value.is_empty() || path.iter().any(String::is_empty) {
             return Err(form());
         }
-        if path.len() > DEEPEST {
-            return Err(refuse(format!("no key is {} tables deep", path.len() - 1)));
-        }
-        let Some((name, tables)) = path.split_last() else { return Err(form()) };
         let value = parse_value(value)
             .map_err(|message| refuse(format!("{} is not a TOML value: {message}", one_line(value))))?;
+        self.put(&path, value, Place::Override(one_line(given))).map_err(refuse)
+    }
+
+    /// Sets one key, given at `place`. Tables on the way that are absent are made.
+    ///
+    /// # Errors
+    /// The reason why there can be no such key.
+    pub fn put(&mut self, path: &[String], value: Value, place: Place) -> Result<(), String> {
+        if path.len() > DEEPEST {
+            return Err(format!("no key is {} tables deep", path.len() - 1));
+        }
+        let Some((name, tables)) = path.split_last() else { return Ok(()) };
         let mut table = self.root.as_table_mut();
         for (depth, step) in tables.iter().enumerate() {
             let inner = table.and_then(|table| {
                 table.entry(step.as_str()).or_insert_with(|| Value::Table(Table::new())).as_table_mut()
             });
-            table = Some(inner.ok_or_else(|| refuse(format!("{} is not a table", dotted(&path[..=depth]))))?);
+            table = Some(inner.ok_or_else(|| format!("{} is not a table", dotted(&path[..=depth])))?);
         }
         if let Some(table) = table {
             table.insert(name.clone(), value);
         }
-        self.note_override(&path, given);
+        self.note_place(path, place);
         Ok(())
     }
 
-    fn note_override(&mut self, path: &[String], given: &str) {
-        let place = Place::Override(one_line(given));
+    fn note_place(&mut self, path: &[String], place: Place) {
         self.places.retain(|known, _| !known.starts_with(path));
         for length in 1..=path.len() {
             self.places.entry(path[..length].to_vec()).or_insert_with(|| place.clone());

@@ -5,16 +5,16 @@ use std::fmt::{self, Display, Formatter};
 use serde::de;
 
 /// A key as the names of its tables and its own; an item of an array is `[0]`, `[1]`...
-pub(super) type KeyPath = Vec<String>;
+pub(crate) type KeyPath = Vec<String>;
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Fault {
+pub(crate) struct Fault {
     pub path: KeyPath,
     pub problem: Problem,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Problem {
+pub(crate) enum Problem {
     /// No such key; the keys that its table has.
     Unknown(&'static [&'static str]),
     Missing,
@@ -46,6 +46,10 @@ impl Fault {
         Fault { path: split(key), problem: Problem::Reason(reason.into()) }
     }
 
+    pub fn at(path: &[String], reason: impl Into<String>) -> Self {
+        Fault { path: path.to_vec(), problem: Problem::Reason(reason.into()) }
+    }
+
     /// `key` is dotted.
     pub fn missing(key: &str) -> Self {
         Fault { path: split(key), problem: Problem::Missing }
@@ -71,7 +75,7 @@ fn split(key: &str) -> KeyPath {
 }
 
 /// The dotted form that a user writes: `boundaries.top.velocity[0]`.
-pub(super) fn dotted(path: &[String]) -> String {
+pub(crate) fn dotted(path: &[String]) -> String {
     let mut key = String::new();
     for name in path {
         let bare = name.chars().all(|c| c.is_ascii_alphanumeric() || "_-[]".contains(c)) && !name.is_empty();

@@ -2,8 +2,11 @@
 
 use super::fault::dotted;
 
-/// Dotted key, and the end of the sentence "it must be ...". `*` stands for any name.
-const ALLOWED: &[(&str, &str)] = &[
+/// What each key of one kind of file may hold: dotted key, and the end of the sentence "it must be ...". `*` stands for
+/// any name.
+pub(crate) type Words = [(&'static str, &'static str)];
+
+pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("title", "one line of text that names the scene"),
     ("domain", "a table with the keys width, height"),
     ("domain.width", "a length above 0, m"),
@@ -57,21 +60,21 @@ const ALLOWED: &[(&str, &str)] = &[
 ];
 
 /// What `path` may hold; an item of an array and a variant's content take the words of the key that holds them.
-pub(super) fn allowed(path: &[String]) -> Option<&'static str> {
-    let is_row = |key: &str, path: &[String]| {
+pub(crate) fn allowed(words: &Words, path: &[String]) -> Option<&'static str> {
+    let plain: Vec<&String> = path.iter().filter(|name| !name.starts_with('[')).collect();
+    let is_row = |key: &str, path: &[&String]| {
         key.split('.').count() == path.len()
-            && key.split('.').zip(path).all(|(name, given)| name == "*" || name == given)
+            && key.split('.').zip(path).all(|(name, given)| name == "*" || name == *given)
     };
-    let find = |path: &[String]| ALLOWED.iter().find(|(key, _)| is_row(key, path)).map(|(_, text)| *text);
-    find(path).or_else(|| {
-        let (last, parent) = path.split_last()?;
-        let inside = last.starts_with('[') || parent.last().is_some_and(|name| name == "line");
-        if inside { find(parent) } else { None }
+    let find = |path: &[&String]| words.iter().find(|(key, _)| is_row(key, path)).map(|(_, text)| *text);
+    find(&plain).or_else(|| {
+        let (_, parent) = plain.split_last()?;
+        if parent.last().is_some_and(|name| *name == "line") { find(parent) } else { None }
     })
 }
 
 /// The key that an unknown one was perhaps meant to be: a like one of its own table, else the same name in another.
-pub(super) fn suggest(path: &[String], known: &[&str]) -> Option<String> {
+pub(super) fn suggest(words: &Words, path: &[String], known: &[&str]) -> Option<String> {
     let (name, table) = path.split_last()?;
     let sibling = closest(name, known).map(|known| {
         let mut meant = table.to_vec();
@@ -80,12 +83,12 @@ pub(super) fn suggest(path: &[String], known: &[&str]) -> Option<String> {
     });
     sibling.or_else(|| {
         let elsewhere = |key: &&str| !key.contains('*') && key.rsplit('.').next() == Some(name);
-        ALLOWED.iter().map(|(key, _)| *key).find(elsewhere).map(str::to_owned)
+        words.iter().map(|(key, _)| *key).find(elsewhere).map(str::to_owned)
     })
 }
 
 /// The word of `known` that `given` is a likely misspelling of.
-pub(super) fn closest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn closest<'a>(given: &str, known: &[&'a str]) -> Option<&'a str> {
     let scored = known.iter().map(|word| (strsim::jaro_winkler(given, word), *word));
     scored.filter(|(score, _)| *score > 0.8).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, word)| word)
 }
@@ -99,6 +102,10 @@ mod tests {
     use super::super::fault::Problem;
     use super::super::*;
     use super::*;
+
+    fn allowed(path: &[String]) -> Option<&'static str> {
+        super::allowed(ALLOWED, path)
+    }
 
     fn path(key: &str) -> Vec<String> {
         key.split('.').filter(|name| !name.is_empty()).map(str::to_owned).collect()
@@ -178,6 +185,6 @@ mod tests {
     fn unlike_words_are_not_suggested() {
         assert_eq!(closest("spacng", &["spacing", "seed"]), Some("spacing"));
         assert_eq!(closest("colour", &["spacing", "seed"]), None);
-        assert_eq!(suggest(&path("domain.jitter"), &["width"]), Some("cloud.jitter".to_owned()));
+        assert_eq!(suggest(ALLOWED, &path("domain.jitter"), &["width"]), Some("cloud.jitter".to_owned()));
     }
 }

@@ -8,9 +8,10 @@ use super::Case;
 use super::check::{check, check_profiles};
 use super::decode::decode;
 use super::document::Document;
-use super::error::{CaseError, KeyError, KeyTrouble};
-use super::fault::{Fault, Problem, dotted};
-use super::{keys, text};
+use super::error::{CaseError, KeyError, KeyTrouble, Place};
+use super::fault::{Fault, KeyPath, Problem, dotted};
+use super::keys::{self, ALLOWED, Words};
+use super::text;
 
 /// Longest value that an error repeats in full, characters.
 const SHOWN: usize = 60;
@@ -34,12 +35,28 @@ impl Case {
     pub fn from_text(text: &str, path: &Path, overrides: &[String]) -> Result<Case, CaseError> {
         let mut document = Document::parse(text, path)?;
         overrides.iter().try_for_each(|given| document.set(given))?;
-        let case = decode::<Case>(document.root());
-        let mut case = case.map_err(|fault| explain(fault, &document))?;
-        check(&case).map_err(|fault| explain(fault, &document))?;
+        Case::from_document(&document, path)
+    }
+
+    /// As [`Case::load`], with keys changed by another file: errors name its place.
+    pub(crate) fn load_changed(path: &Path, changes: &[Change]) -> Result<Case, CaseError> {
+        let mut document = Document::parse(&text::read(path)?, path)?;
+        for Change { key, value, place } in changes {
+            document.put(key, value.clone(), place.clone()).map_err(|reason| {
+                let trouble = KeyTrouble::Value { value: Some(shown(value)), reason };
+                CaseError::Key(Box::new(KeyError { place: place.clone(), key: dotted(key), trouble }))
+            })?;
+        }
+        Case::from_document(&document, path)
+    }
+
+    fn from_document(document: &Document, path: &Path) -> Result<Case, CaseError> {
+        let explain = |fault| explain(fault, document, &CASE_FILE);
+        let mut case = decode::<Case>(document.root()).map_err(explain)?;
+        check(&case).map_err(explain)?;
         case.settle_defaults();
         case.settle_profiles(path.parent().unwrap_or(Path::new("")));
-        check_profiles(&case).map_err(|fault| explain(fault, &document))?;
+        check_profiles(&case).map_err(explain)?;
         Ok(case)
     }
 
@@ -50,24 +67,42 @@ impl Case {
     }
 }
 
+/// A key that takes another value than its file gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Change {
+    pub key: KeyPath,
+    pub value: Value,
+    /// Where that was asked for.
+    pub place: Place,
+}
+
+/// A kind of file, as its errors speak of it.
+pub(crate) struct Kind {
+    /// With its article.
+    pub name: &'static str,
+    pub words: &'static Words,
+}
+
+const CASE_FILE: Kind = Kind { name: "a case file", words: ALLOWED };
+
 /// Puts a fault into the words and the place that a user can act on.
-fn explain(fault: Fault, document: &Document) -> CaseError {
+pub(crate) fn explain(fault: Fault, document: &Document, kind: &Kind) -> CaseError {
     let Fault { path, problem } = fault;
     let key = if path.is_empty() { "the file".to_owned() } else { dotted(&path) };
-    let trouble = trouble(&path, problem, document.value(&path));
+    let trouble = trouble(&path, problem, document.value(&path), kind);
     CaseError::Key(Box::new(KeyError { place: document.place(&path), key, trouble }))
 }
 
-fn trouble(path: &[String], problem: Problem, value: Option<&Value>) -> KeyTrouble {
-    let allowed = keys::allowed(path);
+fn trouble(path: &[String], problem: Problem, value: Option<&Value>, kind: &Kind) -> KeyTrouble {
+    let allowed = keys::allowed(kind.words, path);
     let must_be = |fallback: String| format!("must be {}", allowed.map(str::to_owned).unwrap_or(fallback));
     let reason = match problem {
         Problem::Unknown(known) => {
             let table = match path {
-                [] | [_] => "a case file".to_owned(),
+                [] | [_] => kind.name.to_owned(),
                 [table @ .., _] => format!("[{}]", dotted(table)),
             };
-            return KeyTrouble::Unknown { suggestion: keys::suggest(path, known), table, known };
+            return KeyTrouble::Unknown { suggestion: keys::suggest(kind.words, path, known), table, known };
         }
         Problem::Missing => return KeyTrouble::Missing { allowed: allowed.unwrap_or("given").to_owned() },
         Problem::NotTable(fields) => must_be(format!("a table with keys among {}", fields.join(", "))),
@@ -84,7 +119,7 @@ fn trouble(path: &[String], problem: Problem, value: Option<&Value>) -> KeyTroub
 }
 
 /// A value on one line, cut where it is long.
-fn shown(value: &Value) -> String {
+pub(crate) fn shown(value: &Value) -> String {
     let text = match value {
         Value::String(text) => format!("{text:?}"),
         // Debug writes 1e300 as such.

@@ -4,15 +4,15 @@
 //! is an error. Lengths are in metres, times in seconds, velocities in m/s, pressures in Pa.
 
 mod check;
-mod decode;
+pub(crate) mod decode;
 mod defaults;
-mod document;
-mod error;
-mod fault;
-mod keys;
-mod load;
+pub(crate) mod document;
+pub(crate) mod error;
+pub(crate) mod fault;
+pub(crate) mod keys;
+pub(crate) mod load;
 mod reference;
-mod text;
+pub(crate) mod text;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};

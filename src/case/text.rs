@@ -25,7 +25,7 @@ pub enum TextError {
 }
 
 /// The whole of a UTF-8 text file, without the byte order mark that some editors put first.
-pub(super) fn read(path: &Path) -> Result<String, TextError> {
+pub(crate) fn read(path: &Path) -> Result<String, TextError> {
     let bytes = read_bytes(path).map_err(|source| match source.kind() {
         ErrorKind::NotFound => TextError::Missing { path: path.into() },
         ErrorKind::IsADirectory => TextError::Folder { path: path.into() },

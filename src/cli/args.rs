@@ -22,7 +22,9 @@ pub enum Command {
     Check(CaseArguments),
     /// Print the operations of one time step and the memory they take.
     Plan(PlanArguments),
-    /// Draw the pictures of a finished run again.
+    /// Run a case in many settings and show the error of each against the time it takes.
+    Cost(CostArguments),
+    /// Draw the pictures of a finished run or study again.
     Render(RenderArguments),
     /// List the GPUs that runs can use.
     Adapters,
@@ -73,8 +75,27 @@ pub struct PlanArguments {
 }
 
 #[derive(Debug, Args)]
+pub struct CostArguments {
+    /// The study file, TOML.
+    #[arg(value_name = "STUDY")]
+    pub study: PathBuf,
+    /// Set one key of the study, as in --set repeats=1 or --set set.time.end=5; may be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// The folder to write to [default: runs/, then the study file's name].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Forget the runs that are in the folder and start over.
+    #[arg(long)]
+    pub fresh: bool,
+    /// Draw no progress bar.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// The folder of a finished run.
+    /// The folder of a finished run or study.
     #[arg(value_name = "RUN")]
     pub run: PathBuf,
 }

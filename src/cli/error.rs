@@ -12,14 +12,19 @@ use crate::output::OutputError;
 use crate::run::RunError;
 use crate::scene::SceneError;
 use crate::simulation::SimulationError;
+use crate::study::StudyError;
 
 /// Each prints as one line after `error: `.
 #[derive(Debug, Error)]
 pub enum CliError {
     #[error(transparent)]
     Case(#[from] CaseError),
+    #[error(transparent)]
+    Study(#[from] StudyError),
     #[error("{}: has something in it already; give another --out, or --force to write over it", path.display())]
     FolderTaken { path: PathBuf },
+    #[error("{}: has something in it already and no study; give another --out", path.display())]
+    NoStudy { path: PathBuf },
     #[error("{}: not a folder, so no run can be written there", path.display())]
     NotFolder { path: PathBuf },
     #[error("{}: cannot be looked into: {source}", path.display())]
@@ -55,6 +60,8 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             CliError::Case(_)
+            | CliError::Study(_)
+            | CliError::NoStudy { .. }
             | CliError::FolderTaken { .. }
             | CliError::NotFolder { .. }
             | CliError::FolderUnreadable { .. }

@@ -3,6 +3,7 @@
 mod adapters;
 mod args;
 mod check;
+mod cost;
 mod engine;
 mod error;
 mod folder;
@@ -11,6 +12,7 @@ mod plan;
 mod progress;
 mod render;
 mod run;
+mod turns;
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
@@ -39,6 +41,7 @@ fn execute(command: &Command) -> Result<(), CliError> {
         Command::Run(arguments) => run::run(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Plan(arguments) => plan::plan(arguments),
+        Command::Cost(arguments) => cost::cost(arguments),
         Command::Render(arguments) => render::render(arguments),
         Command::Adapters => adapters::adapters(),
     }

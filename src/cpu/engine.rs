@@ -1,6 +1,7 @@
 //! The CPU engine: the plan's operations on arrays in memory, on all cores.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use crate::cpu::fields::Fields;
 use crate::cpu::operations::conservative::{self, Conservative, Faces, Fluxes};
@@ -15,7 +16,7 @@ use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient, fit, kick
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
 use crate::engine::{
-    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo,
+    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo, Spent,
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation, Points};
@@ -35,6 +36,7 @@ pub struct CpuEngine<T: Real> {
     direct: Option<DirectSolver>,
     solve: SolveInfo,
     fallbacks: u32,
+    spent: Spent,
 }
 
 /// The arrays of a solver are taken out together and put back together.
@@ -56,7 +58,8 @@ impl<T: Real> CpuEngine<T> {
         }
         let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
-        Ok(Self { scene, fields, domain, per_volume, direct: None, solve: SolveInfo::default(), fallbacks: 0 })
+        let (solve, spent) = (SolveInfo::default(), Spent::default());
+        Ok(Self { scene, fields, domain, per_volume, direct: None, solve, fallbacks: 0, spent })
     }
 
     fn fits<S: Space<T>, const N: usize, const F: usize>(
@@ -588,7 +591,8 @@ impl<T: Real> Engine for CpuEngine<T> {
     }
 
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
-        match operation {
+        let started = Instant::now();
+        let done = match operation {
             Operation::BuildCells(_)
             | Operation::FindNeighbours(_)
             | Operation::Factorise(_)
@@ -619,7 +623,9 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::ConjugateGradient
             | Operation::Bicgstab
             | Operation::DirectSolve => self.pressure(operation, clock),
-        }
+        };
+        *self.spent.entry(operation).or_default() += started.elapsed().as_secs_f64();
+        done
     }
 
     fn advance(&mut self, steps: u32, clock: &Clock) -> Result<Advance, EngineError> {
@@ -644,6 +650,10 @@ impl<T: Real> Engine for CpuEngine<T> {
 
     fn solve_info(&self) -> SolveInfo {
         self.solve
+    }
+
+    fn seconds(&self) -> Spent {
+        self.spent.clone()
     }
 
     fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {

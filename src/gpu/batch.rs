@@ -12,7 +12,8 @@ use super::layout::{Ended, Extent, Halted, NO_POINT, Scalar, Word};
 use super::memory::Memory;
 use super::prelude::Shape;
 use super::program::{Budget, Program};
-use crate::engine::{EngineError, Outcome, SolveInfo};
+use super::timer::{Marks, Timer};
+use crate::engine::{EngineError, Outcome, SolveInfo, Spent};
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation};
 
@@ -38,6 +39,8 @@ pub(super) struct Cursor {
 pub(super) struct Report {
     words: Vec<u32>,
     scalars: Vec<f64>,
+    /// Of the operations of this batch, where it was timed.
+    pub spent: Spent,
 }
 
 impl Report {
@@ -118,6 +121,7 @@ pub(super) struct Batch<'a> {
     pub scene: &'a Scene,
     pub memory: &'a Memory,
     pub program: &'a Program,
+    pub timer: Option<&'a Timer>,
     /// The operations of one step.
     pub step: &'a [Operation],
     /// These are steps of the flow, to be watched and counted, and not one operation on its own.
@@ -139,31 +143,35 @@ impl Batch<'_> {
     pub fn send(&self, cursor: &mut Cursor, steps: u32, pace: &mut Pace) -> Result<Report, EngineError> {
         self.open(cursor.resumed)?;
         let dispatches = self.memory.own(Own::Dispatches);
-        let commands = self.gpu.checked("encode", |device| {
+        let (commands, marks) = self.gpu.checked("encode", |device| {
             let mut encoder = device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
+            let mut marks = Marks::begin(self.timer, &mut pass);
             let mut count = 0;
             for step in 0..steps.min(pace.steps) {
                 let begin = if step == 0 { *cursor } else { Cursor::default() };
                 for (k, &operation) in self.step.iter().enumerate().skip(begin.operation) {
                     let resumed = begin.resumed && k == begin.operation;
                     count += self.program.encode(operation, resumed, pace.budget, &mut pass, dispatches);
+                    marks.after(operation, &mut pass);
                 }
                 if self.counted {
                     self.program.encode_end_step(&mut pass, dispatches);
                 }
-                if count > MOST_DISPATCHES {
+                if count > MOST_DISPATCHES || !marks.hold(self.step.len()) {
                     break;
                 }
             }
             drop(pass);
-            encoder.finish()
+            marks.resolve(&mut encoder);
+            (encoder.finish(), marks)
         })?;
         let started = Instant::now();
         self.gpu.run(commands)?;
         let (words, scalars) = self.memory.read_state(self.gpu)?;
-        let report = Report { words, scalars };
+        let mut report = Report { words, scalars, spent: Spent::default() };
         pace.learn(&report, started.elapsed());
+        marks.add_to(self.gpu, &mut report.spent)?;
         let solve = self.step.iter().position(|&operation| solves(operation)).unwrap_or(0);
         *cursor = match report.halted() {
             Halted::InSolve => Cursor { operation: solve, resumed: true },
@@ -191,7 +199,7 @@ impl Batch<'_> {
         })?;
         self.gpu.run(commands)?;
         let (words, scalars) = self.memory.read_state(self.gpu)?;
-        Ok(Report { words, scalars })
+        Ok(Report { words, scalars, spent: Spent::default() })
     }
 
     /// Sets the state going.

@@ -30,6 +30,17 @@ pub struct Gpu {
 impl Gpu {
     /// Opens an adapter for floats of `precision`.
     pub fn open(candidate: &Candidate, precision: Precision) -> Result<Self, EngineError> {
+        Self::open_with(candidate, precision, Features::empty())
+    }
+
+    /// The same, with times taken of every operation where the adapter can.
+    pub fn open_timed(candidate: &Candidate, precision: Precision) -> Result<Self, EngineError> {
+        let wanted = Features::TIMESTAMP_QUERY | Features::TIMESTAMP_QUERY_INSIDE_PASSES;
+        let offered = candidate.adapter.features().contains(wanted);
+        Self::open_with(candidate, precision, if offered { wanted } else { Features::empty() })
+    }
+
+    fn open_with(candidate: &Candidate, precision: Precision, more: Features) -> Result<Self, EngineError> {
         if precision == Precision::Double && !candidate.double_precision {
             let name = &candidate.info.name;
             return Err(EngineError::Adapter(format!("{name} has no f64 in shaders; allowed: f32, or the CPU engine")));
@@ -48,7 +59,7 @@ impl Gpu {
         };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("stillpoint"),
-            required_features: features,
+            required_features: features | more,
             required_limits: limits.clone(),
             ..Default::default()
         };

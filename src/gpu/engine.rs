@@ -1,6 +1,7 @@
 //! The GPU engine's side of the trait that both engines implement.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::batch::{Batch, Cursor, Pace, Report};
 use super::bindings::Own;
@@ -8,9 +9,10 @@ use super::device::Gpu;
 use super::layout::{Halted, NO_POINT, Scalar, Time, Word};
 use super::memory::Memory;
 use super::program::Program;
+use super::timer::Timer;
 use crate::direct::DirectSolver;
 use crate::engine::{
-    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo,
+    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo, Spent,
 };
 use crate::scene::Scene;
 use crate::step::{Buffer, Operation};
@@ -27,6 +29,8 @@ pub struct GpuEngine {
     direct: Option<DirectSolver>,
     solve: SolveInfo,
     fallbacks: u32,
+    timer: Option<Timer>,
+    spent: Spent,
 }
 
 impl GpuEngine {
@@ -40,12 +44,18 @@ impl GpuEngine {
         let program = Program::new(&gpu, &scene, &memory)?;
         let step = scene.plan.drift.iter().chain(&scene.plan.kick).copied().collect();
         let (pace, solve) = (Pace::default(), SolveInfo::default());
-        Ok(Self { gpu, scene, memory, program, step, pace, direct: None, solve, fallbacks: 0 })
+        let (timer, spent) = (Timer::new(&gpu)?, Spent::default());
+        Ok(Self { gpu, scene, memory, program, step, pace, direct: None, solve, fallbacks: 0, timer, spent })
     }
 
     /// The GPU that computes.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// True on a GPU that was opened for it and has timestamps.
+    pub fn takes_times(&self) -> bool {
+        self.timer.is_some()
     }
 
     /// Bytes that the arrays take on the GPU: the plan's, and the engine's own.
@@ -89,10 +99,13 @@ impl GpuEngine {
             done.steps = report.word(Word::Steps);
             done.iterations = u64::from(report.word(Word::TotalIterations));
             self.solve = report.solve_info();
+            report.spent.iter().for_each(|(&operation, seconds)| self.spend(operation, *seconds));
             let halted = report.halted();
             match halted {
                 Halted::ForDirectSolve => {
+                    let started = Instant::now();
                     done.trouble = self.solve_directly(report)?;
+                    self.spend(Operation::DirectSolve, started.elapsed().as_secs_f64());
                     // Trouble ends the step that it was met in.
                     done.steps += u32::from(done.trouble.is_some());
                     let fallback = done.trouble.is_none() && !step.contains(&Operation::DirectSolve);
@@ -116,7 +129,15 @@ impl GpuEngine {
     }
 
     fn batch<'a>(&'a self, step: &'a [Operation], counted: bool) -> Batch<'a> {
-        Batch { gpu: &self.gpu, scene: &self.scene, memory: &self.memory, program: &self.program, step, counted }
+        let Self { gpu, scene, memory, program, timer, .. } = self;
+        Batch { gpu, scene, memory, program, timer: timer.as_ref(), step, counted }
+    }
+
+    /// Kept on a GPU alone that was opened for it.
+    fn spend(&mut self, operation: Operation, seconds: f64) {
+        if self.timer.is_some() {
+            *self.spent.entry(operation).or_default() += seconds;
+        }
     }
 
     /// Solves the pressure equation on the host; a source that is not finite is trouble instead. `report` is that of the
@@ -199,6 +220,10 @@ impl Engine for GpuEngine {
 
     fn solve_info(&self) -> SolveInfo {
         self.solve
+    }
+
+    fn seconds(&self) -> Spent {
+        self.spent.clone()
     }
 
     fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {

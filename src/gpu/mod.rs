@@ -18,6 +18,7 @@ mod self_test;
 mod sources;
 #[cfg(test)]
 mod tests;
+mod timer;
 mod unrolled;
 
 pub use device::Gpu;

@@ -34,7 +34,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// For `map_err`: an input or output error with its path.
-    pub(super) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+    pub(crate) fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { path: path.to_owned(), source }
     }
 }

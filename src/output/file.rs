@@ -11,7 +11,7 @@ use crate::snapshot::Snapshot;
 ///
 /// # Errors
 /// Whatever `write` returns, and every error of the file system; the temporary file is removed then.
-pub(super) fn write_whole(
+pub(crate) fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
 ) -> Result<(), OutputError> {

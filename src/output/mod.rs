@@ -2,7 +2,7 @@
 
 mod diagnostics;
 mod error;
-mod file;
+pub(crate) mod file;
 mod folder;
 pub mod picture;
 pub mod points;

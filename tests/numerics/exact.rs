@@ -101,6 +101,18 @@ fn what_is_reported_is_of_its_time_while_steps_get_longer() {
     assert!((changing - constant).abs() < 2e-3, "{changing} with steps of many lengths, {constant} of one");
 }
 
+/// The noise of plain faces is made anew in every step and smoothed away by every remap, at the flow's cost.
+#[test]
+fn with_plain_faces_on_scattered_points_the_error_grows_as_steps_get_shorter() {
+    for remap in ["effects.advection.remap=departure", "effects.advection.remap=forward"] {
+        let at = |courant: &str| {
+            errors(&vortices(32, &["cloud.arrangement=jittered", "time.end=0.25", remap, courant]))[0]
+        };
+        let [long, short] = ["time.courant=0.8", "time.courant=0.1"].map(at);
+        assert!(short > 2.0 * long, "{remap}: {short} after short steps, {long} after longer ones");
+    }
+}
+
 /// A fit passes through its own point's value, so that a remap over a short way errs in proportion to the way: errors do not
 /// grow as the number of steps does. What grows is a noise of the projection that remaps over shorter ways smooth less.
 #[test]

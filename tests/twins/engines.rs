@@ -13,11 +13,12 @@ use stillpoint::step::Buffer;
 use crate::adapter::{required, skipped};
 
 /// The files whose tests need a GPU.
-const SOURCES: [&str; 5] = [
+const SOURCES: [&str; 6] = [
     include_str!("forms.rs"),
     include_str!("operations.rs"),
     include_str!("runs.rs"),
     include_str!("memory.rs"),
+    include_str!("times.rs"),
     include_str!("trouble.rs"),
 ];
 

@@ -18,4 +18,5 @@ mod memory;
 mod operations;
 mod runs;
 mod scenes;
+mod times;
 mod trouble;

@@ -18,6 +18,13 @@ impl Rgb {
     pub const VERMILION: Self = Self([213, 94, 0]);
     pub const GREEN: Self = Self([0, 158, 115]);
     pub const PURPLE: Self = Self([204, 121, 167]);
+    pub const ORANGE: Self = Self([230, 159, 0]);
+    pub const SKY: Self = Self([86, 180, 233]);
+
+    /// Mixed with white; 0 leaves the colour, 1 is white.
+    pub fn paler(self, share: f64) -> Self {
+        Self(self.0.map(|c| (f64::from(c) + (255.0 - f64::from(c)) * share).round() as u8))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -34,6 +34,12 @@ impl Axis {
         Self { low, high, ticks, label }
     }
 
+    /// An axis of powers of ten: `low` and `high` above 0. It takes and holds decimal logarithms; `unit` follows each number.
+    pub fn logarithmic(low: f64, high: f64, label: &str, unit: &str) -> Self {
+        let ticks = Ticks::decades(low, high, unit);
+        Self { low: low.log10(), high: high.log10(), ticks, label: label.to_owned() }
+    }
+
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
     }

@@ -4,6 +4,7 @@ mod bar;
 mod canvas;
 mod centreline;
 mod colour;
+mod cost;
 mod frame;
 mod map;
 mod panels;
@@ -16,6 +17,9 @@ mod ticks;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+pub use cost::draw_cost;
+pub use ticks::short;
 
 use canvas::Canvas;
 use panels::Shown;

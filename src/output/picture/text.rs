@@ -73,6 +73,14 @@ impl Text {
         lines
     }
 
+    /// The text, or as much of its beginning as is no wider than `width` pixels with an ellipsis behind.
+    pub fn cut(&self, text: &str, size: f64, width: f64) -> String {
+        let ends = text.char_indices().map(|(end, _)| end).chain([text.len()]).rev();
+        let shorter =
+            |end: usize| if end == text.len() { text.to_owned() } else { format!("{}...", text[..end].trim_end()) };
+        ends.map(shorter).find(|text| self.width(text, size) <= width).unwrap_or_default()
+    }
+
     /// Draws one line of text in black.
     pub fn draw(&self, canvas: &mut Canvas, text: &str, at: DVec2, size: f64, anchor: Anchor, direction: Direction) {
         let font = self.font.as_scaled(self.scale(size));
@@ -118,7 +126,7 @@ mod tests {
     #[test]
     fn every_sign_that_figures_use_is_in_the_font() {
         let text = Text::new().unwrap();
-        for sign in "0123456789.−⁰¹²³⁴⁵⁶⁷⁸⁹⁻[]|/=xyuvptmsPaé&–’".chars() {
+        for sign in "0123456789.−⁰¹²³⁴⁵⁶⁷⁸⁹⁻[]|/=xyuvptmsPaé&–’×%,:;()@_".chars() {
             assert_ne!(text.font.glyph_id(sign).0, 0, "{sign} is missing");
         }
     }
@@ -130,6 +138,17 @@ mod tests {
         let lines = text.wrap(long, 18.0, 240.0);
         assert!(lines.len() > 2 && lines.iter().all(|line| text.width(line, 18.0) <= 240.0));
         assert_eq!(lines.join(" "), long);
+    }
+
+    #[test]
+    fn what_is_too_wide_is_cut() {
+        let text = Text::new().unwrap();
+        let long = "collocated, random, courant 0.4";
+        assert_eq!(text.cut(long, 18.0, 600.0), long);
+        let cut = text.cut(long, 18.0, 120.0);
+        assert!(cut.starts_with("colloc") && cut.ends_with("..."), "{cut}");
+        assert!(text.width(&cut, 18.0) <= 120.0 && text.width(&cut, 18.0) > 100.0);
+        assert_eq!(text.cut(long, 18.0, 1.0), "");
     }
 
     #[test]

@@ -49,6 +49,20 @@ impl Ticks {
         Self { values, labels, exponent }
     }
 
+    /// Powers of ten from `low` to `high`, both above 0, in plain numbers with `unit` behind each; with their doubles and
+    /// fives where that leaves fewer than three. The values are the decimal logarithms.
+    pub fn decades(low: f64, high: f64, unit: &str) -> Self {
+        let powers = (low.log10() - 1e-9).floor() as i32..=(high.log10() + 1e-9).ceil() as i32;
+        let of = |mantissas: &[i32]| {
+            let each = powers.clone().flat_map(|power| mantissas.iter().map(move |m| f64::from(*m) * ten(power)));
+            each.filter(|value| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(value)).collect::<Vec<f64>>()
+        };
+        let decades = of(&[1]);
+        let values = if decades.len() < 3 { of(&[1, 2, 5]) } else { decades };
+        let labels = values.iter().map(|value| format!("{}{unit}", short(*value, 1))).collect();
+        Self { values: values.iter().map(|value| value.log10()).collect(), labels, exponent: 0 }
+    }
+
     /// The unit in brackets, with the power of ten that the labels leave out: `[10⁻³ m]`.
     pub fn unit(&self, unit: &str) -> String {
         if self.exponent == 0 { format!("[{unit}]") } else { format!("[10{} {unit}]", raised(self.exponent)) }
@@ -140,6 +154,20 @@ mod tests {
     fn a_range_that_is_none_has_no_ticks() {
         for (low, high) in [(1.0, 1.0), (2.0, 1.0), (0.0, f64::NAN), (0.0, f64::INFINITY)] {
             assert!(Ticks::new(low, high, 5).values.is_empty());
+        }
+    }
+
+    #[test]
+    fn decades_are_plain_numbers_inside_the_range() {
+        for (low, high, labels) in [
+            (0.007, 130.0, vec!["0.01s", "0.1s", "1s", "10s", "100s"]),
+            (0.1, 10.0, vec!["0.1s", "1s", "10s"]),
+            (0.15, 7.0, vec!["0.2s", "0.5s", "1s", "2s", "5s"]),
+            (1e-7, 1e-5, vec!["1×10⁻⁷s", "1×10⁻⁶s", "1×10⁻⁵s"]),
+        ] {
+            let ticks = Ticks::decades(low, high, "s");
+            assert_eq!(ticks.labels, labels);
+            assert!(ticks.values.iter().all(|v| (low.log10() - 1e-6..=high.log10() + 1e-6).contains(v)));
         }
     }
 
