@@ -83,9 +83,12 @@ const PROBLEMS: [(&str, &[&str]); 3] = [
     ("derivatives, order 4", &["derivatives.field=waves", "method.order=4"]),
 ];
 
+/// Makes a case of so many spacings a metre and such changes.
+type Make = fn(usize, &[&str]) -> Case;
+
 /// The same of the flows that are known, in domains that repeat and domains that fluid flows through. 14 spacings a metre: no
 /// point stands on the edge of a cell.
-const KNOWN: [(&str, fn(usize, &[&str]) -> Case, &[&str]); 7] = [
+const KNOWN: [(&str, Make, &[&str]); 7] = [
     ("periodic, regular, fitted faces", vortices, &[FIT]),
     ("periodic, jittered, forward", vortices, &["cloud.arrangement=jittered", "effects.advection.remap=forward", FIT]),
     ("periodic, random, adjoint", vortices, &["cloud.arrangement=random", "effects.pressure.gradient=adjoint"]),

@@ -47,23 +47,22 @@ fn evaluate<T: Real, S: Space<T>, const N: usize>(
     place: [T; 2],
 ) -> [T; 2] {
     let per = T::from_f64(1.0) / support[j];
-    let [x, y] = offset(space, position, j, place).map(|d| One(d * per));
-    let basis: [One<T>; N] = moments::basis(x, y);
+    let [x, y] = offset(space, position, j, place);
+    let basis: [One<T>; N] = moments::basis(One(x * per), One(y * per));
     let first = blocks::at(j, 0, 2 * N);
-    let part = |c: usize| {
-        let mut sum = values[2 * j + c];
-        for (k, term) in basis.into_iter().enumerate() {
-            sum += coefficients[first + (c * N + k) * BLOCK] * term.0;
-        }
-        sum
-    };
-    [part(0), part(1)]
+    let (mut u, mut v) = (values[2 * j], values[2 * j + 1]);
+    for (k, term) in basis.into_iter().enumerate() {
+        u += coefficients[first + k * BLOCK] * term.0;
+        v += coefficients[first + (N + k) * BLOCK] * term.0;
+    }
+    [u, v]
 }
 
 /// The way from point `j` to `place`.
 #[inline(always)]
 fn offset<T: Real, S: Space<T>>(space: S, position: &[T], j: usize, place: [T; 2]) -> [T; 2] {
-    space.shortest([One(place[0] - position[2 * j]), One(place[1] - position[2 * j + 1])]).map(|d| d.0)
+    let [x, y] = space.shortest([One(place[0] - position[2 * j]), One(place[1] - position[2 * j + 1])]);
+    [x.0, y.0]
 }
 
 /// The points around each point: its neighbours, or those across the faces of its Voronoi cell, which suffice to walk from any

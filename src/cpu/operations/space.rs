@@ -69,16 +69,14 @@ macro_rules! with_space {
     };
 }
 
-impl<T: Real> Walled<T> {
-    #[inline(always)]
-    fn clamp(self, place: [T; 2]) -> [T; 2] {
-        // Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that of a corner.
-        let along = |axis: usize| match place[axis] {
-            x if x < T::zero() => T::zero(),
-            x if x > self.size[axis] => self.size[axis],
-            x => x,
-        };
-        [along(0), along(1)]
+/// The nearest place of `[0, length]`. Comparisons that leave NaN as it is: a lost velocity must be seen, not replaced by that
+/// of a corner.
+#[inline(always)]
+fn clamp<T: Real>(x: T, length: T) -> T {
+    match x {
+        low if low < T::zero() => T::zero(),
+        high if high > length => length,
+        x => x,
     }
 }
 
@@ -94,8 +92,8 @@ impl<T: Real> Space<T> for Walled<T> {
     }
 
     #[inline(always)]
-    fn inside(self, place: [T; 2]) -> [T; 2] {
-        self.clamp(place)
+    fn inside(self, [x, y]: [T; 2]) -> [T; 2] {
+        [clamp(x, self.size[0]), clamp(y, self.size[1])]
     }
 }
 
@@ -125,7 +123,7 @@ impl<T: Real> Space<T> for Periodic<T> {
 
     #[inline(always)]
     fn inside(self, place: [T; 2]) -> [T; 2] {
-        self.walls.clamp(self.wrapped(place))
+        self.walls.inside(self.wrapped(place))
     }
 }
 
