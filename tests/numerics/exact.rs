@@ -105,9 +105,8 @@ fn what_is_reported_is_of_its_time_while_steps_get_longer() {
 #[test]
 fn with_plain_faces_on_scattered_points_the_error_grows_as_steps_get_shorter() {
     for remap in ["effects.advection.remap=departure", "effects.advection.remap=forward"] {
-        let at = |courant: &str| {
-            errors(&vortices(32, &["cloud.arrangement=jittered", "time.end=0.25", remap, courant]))[0]
-        };
+        let at =
+            |courant: &str| errors(&vortices(32, &["cloud.arrangement=jittered", "time.end=0.25", remap, courant]))[0];
         let [long, short] = ["time.courant=0.8", "time.courant=0.1"].map(at);
         assert!(short > 2.0 * long, "{remap}: {short} after short steps, {long} after longer ones");
     }

@@ -15,7 +15,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("repeats = 1", "repeats = \"two\"", "study.toml:4: repeats = \"two\": must be a whole number from 1 to 1000"),
     ("repeats = 1", "repeat_below = -1", "study.toml:4: repeat_below = -1: must be a time from 0, s"),
     ("repeats = 1", "targets = [0.1, 0]", "study.toml:4: targets = [0.1, 0]: must be a list of numbers above 0, relative errors"),
-    ("repeats = 1", "seconds = \"user\"", "study.toml:4: seconds = \"user\": must be \"cpu\" or \"wall\""),
+    ("repeats = 1", "seconds = \"user\"", "study.toml:4: seconds = \"user\": must be \"cpu\", \"wall\" or \"engine\""),
     ("repeats = 1", "along = \"time.courant\"", "study.toml:4: along = \"time.courant\": must be a key that is varied: cloud.spacing, precision"),
     ("repeats = 1", "most_runs = 11", "study.toml:4: most_runs = 11: the study asks for 16 runs: 4 settings, each run once to warm up and 3 times to be timed; vary less, or raise it"),
     ("error = \"u_min\"\n", "", "study.toml: error is missing: it must be the NAME of an [expect.NAME] of the case"),
