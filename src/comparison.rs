@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::case::{Arrangement, Case, DEFAULT_JITTER, Operators};
+use crate::case::{Arrangement, Case, Component, DEFAULT_JITTER, Operators};
 use crate::cpu;
 use crate::engine::EngineError;
 use crate::known::Known;
+use crate::measure::FieldError;
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{SimulationError, simulate};
 use crate::snapshot::Derivatives;
@@ -40,9 +41,7 @@ pub enum ComparisonError {
 /// Integral and interpolation form, each on a lattice and on the points of the case (jittered ones where it has a lattice),
 /// on the CPU engine in f64. Empty for a case that is not about derivatives.
 pub fn panels(case: &Case) -> Result<Vec<Panel>, ComparisonError> {
-    if case.derivatives.is_none() {
-        return Ok(Vec::new());
-    }
+    let Some(known) = Known::of(case).filter(|_| case.derivatives.is_some()) else { return Ok(Vec::new()) };
     let mut panels = Vec::new();
     for operators in [Operators::Integral, Operators::Interpolation] {
         let mut lattice = case.clone();
@@ -52,39 +51,27 @@ pub fn panels(case: &Case) -> Result<Vec<Panel>, ComparisonError> {
         if scattered.cloud.arrangement == Arrangement::Regular {
             (scattered.cloud.arrangement, scattered.cloud.jitter) = (Arrangement::Jittered, Some(DEFAULT_JITTER));
         }
-        panels.extend([panel(&lattice)?, panel(&scattered)?]);
+        panels.extend([panel(&lattice, &known)?, panel(&scattered, &known)?]);
     }
     Ok(panels)
 }
 
-fn panel(case: &Case) -> Result<Panel, ComparisonError> {
+fn panel(case: &Case, known: &Known) -> Result<Panel, ComparisonError> {
     let scene = Arc::new(Scene::build(case)?);
     let outcome = simulate(&scene, cpu::double(&scene)?.as_mut(), &mut ())?;
-    let (position, derivatives) = (outcome.snapshot.position, outcome.snapshot.derivatives.unwrap_or_default());
-    let [gradient_error, laplacian_error] = match Known::of(case) {
-        Some(known) => errors(&known, &position, &derivatives),
-        None => [f64::NAN; 2],
+    let snapshot = outcome.snapshot;
+    let error = |component| {
+        let FieldError { difference, exact } = FieldError::of_known(&snapshot, known, component);
+        difference / exact
     };
+    let (gradient_error, laplacian_error) = (error(Component::Gradient), error(Component::Laplacian));
+    let derivatives = snapshot.derivatives.unwrap_or_default();
     Ok(Panel {
         operators: case.method.operators,
         arrangement: case.cloud.arrangement,
-        position,
+        position: snapshot.position,
         laplacian_error: (!derivatives.laplacian.is_empty()).then_some(laplacian_error),
         derivatives,
         gradient_error,
     })
-}
-
-/// Rms errors of gradient and Laplacian over all points, relative to the rms of the exact values.
-pub fn errors(known: &Known, position: &[DVec2], found: &Derivatives) -> [f64; 2] {
-    let relative = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
-        let (off, size) = pairs.fold((0.0, 0.0), |(off, size), (square, exact)| (off + square, size + exact));
-        (off / size).sqrt()
-    };
-    let gradients = position.iter().zip(&found.gradient).map(|(&place, &found)| (known.gradient(place), found));
-    let laplacians = position.iter().zip(&found.laplacian).map(|(&place, &found)| (known.laplacian(place), found));
-    [
-        relative(&mut gradients.map(|(exact, found)| ((found - exact).length_squared(), exact.length_squared()))),
-        relative(&mut laplacians.map(|(exact, found)| ((found - exact).powi(2), exact * exact))),
-    ]
 }

@@ -115,7 +115,7 @@ impl Scene {
             lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
-            tolerance: pressure.tolerance,
+            tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },

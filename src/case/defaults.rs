@@ -1,6 +1,6 @@
 //! What holds where a case leaves a key open and the answer depends on another key.
 
-use super::{Arrangement, Case, Cloud, Divergence, Gradient, Method, Pressure, PressureForm, Solver};
+use super::{Arrangement, Case, Cloud, Divergence, Gradient, Method, Operators, Pressure, PressureForm, Solver};
 
 /// Largest displacement of a jittered point along each axis, in spacings.
 pub const DEFAULT_JITTER: f64 = 0.4;
@@ -33,6 +33,11 @@ impl Cloud {
 }
 
 impl Method {
+    /// True where the operators have second derivatives: not fits of order 1.
+    pub fn second_derivatives(&self) -> bool {
+        self.operators == Operators::Integral || self.order > 1
+    }
+
     /// Radius of the neighbourhood, in spacings.
     pub fn radius(&self) -> f64 {
         self.radius.unwrap_or(DEFAULT_RADIUS[self.order.clamp(1, 4) - 1])
@@ -59,7 +64,19 @@ impl Pressure {
     }
 }
 
+/// Volume change left in a step by a pressure solve, as far as [`COARSE`] spacings to the shorter side.
+const DEFAULT_TOLERANCE: f64 = 1e-6;
+/// Beyond so many spacings the default falls with the square of the spacing, as the step's square does.
+const COARSE: f64 = 64.0;
+
 impl Case {
+    /// Volume change, `|div u| dt` (rms over the points), at which a pressure solve is done.
+    pub fn tolerance(&self) -> f64 {
+        let spacings = self.domain.width.min(self.domain.height) / self.cloud.spacing;
+        let default = DEFAULT_TOLERANCE * (COARSE / spacings).powi(2).min(1.0);
+        self.effects.pressure.as_ref().and_then(|pressure| pressure.tolerance).unwrap_or(default)
+    }
+
     /// Writes the defaults that apply into the keys left open, so that a summary shows what was run.
     pub(super) fn settle_defaults(&mut self) {
         let cloud = &mut self.cloud;
@@ -73,7 +90,9 @@ impl Case {
             cloud.minimum_distance = Some(cloud.minimum_distance());
         }
         self.method.radius = Some(self.method.radius());
+        let tolerance = self.tolerance();
         if let Some(pressure) = &mut self.effects.pressure {
+            pressure.tolerance = Some(tolerance);
             pressure.solver = Some(pressure.solver());
             if pressure.form == PressureForm::Conservative {
                 pressure.divergence = Some(pressure.divergence());

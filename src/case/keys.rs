@@ -49,7 +49,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),
     ("expect.*", "a table, its name of letters, digits, _ and - alone"),
-    ("expect.*.component", r#""u", "v" or "p"; with measure = "error" also "velocity""#),
+    ("expect.*.component", r#""u", "v" or "p"; with measure = "error" also "velocity", "gradient" or "laplacian""#),
     ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
     ("expect.*.measure", r#""minimum", "maximum", "profile" or "error""#),
     ("expect.*.value", "a number other than 0 (its error is relative), m/s or Pa"),

@@ -212,7 +212,7 @@ pub struct Pressure {
     /// `conjugate_gradient` for the conservative form and `bicgstab` for the collocated one where absent.
     pub solver: Option<Solver>,
     /// Volume change left in a step, `|div u| dt` (rms over the points); the solver stops there.
-    pub tolerance: f64,
+    pub tolerance: Option<f64>,
     pub max_iterations: u32,
 }
 
@@ -223,7 +223,7 @@ impl Default for Pressure {
             divergence: None,
             gradient: None,
             solver: None,
-            tolerance: 1e-6,
+            tolerance: None,
             max_iterations: 2000,
         }
     }
@@ -427,6 +427,10 @@ pub enum Component {
     P,
     /// Both components of the velocity, m/s: `error` alone.
     Velocity,
+    /// The gradient of a known field, 1/m: `error` alone.
+    Gradient,
+    /// Its Laplacian, 1/m^2: `error` alone.
+    Laplacian,
 }
 
 /// `{ x = 0.5 }`, the vertical line there, or `{ y = 0.5 }`, the horizontal one; m.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::exact::Exact;
+use crate::known::Known;
 use crate::snapshot::Snapshot;
 
 /// One row of `[expect]` with its measured value. `None` stands where the run gave no finite number.
@@ -51,8 +52,9 @@ pub fn evaluate(
             let fail = |what: &str| MeasureError::Expectation { name: name.clone(), what: what.to_owned() };
             let found = match row.measure {
                 Measure::Error => {
-                    let exact = exact.as_ref().ok_or_else(|| fail("there is no exact solution"))?;
-                    Found::of_field(FieldError::new(snapshot, exact, row.component))
+                    let known = Known::of(case).map(|known| FieldError::of_known(snapshot, &known, row.component));
+                    let flow = exact.as_ref().map(|exact| FieldError::new(snapshot, exact, row.component));
+                    Found::of_field(known.or(flow).ok_or_else(|| fail("there is no exact solution"))?)
                 }
                 _ => {
                     let at = row.line.ok_or_else(|| fail("`line` is missing"))?;
@@ -143,6 +145,8 @@ fn quantity(row: &Expectation) -> String {
         Component::V => "v",
         Component::P => "p",
         Component::Velocity => "the velocity",
+        Component::Gradient => "the gradient",
+        Component::Laplacian => "the Laplacian",
     };
     match row.line {
         Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use crate::case::Component;
 use crate::exact::Exact;
-use crate::snapshot::Snapshot;
+use crate::known::Known;
+use crate::snapshot::{Derivatives, Snapshot};
 
 /// How far a computed field is from the exact one: root mean squares over the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,19 +28,51 @@ impl FieldError {
         let pairs: Vec<(DVec2, DVec2)> = match component {
             Component::P => {
                 let right: Vec<f64> = position.iter().map(|&place| exact.pressure(place, *time)).collect();
-                let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-                let (zero, right_zero) = (mean(pressure), mean(&right));
-                let relative = |(p, q): (&f64, &f64)| (DVec2::new(p - zero, 0.0), DVec2::new(q - right_zero, 0.0));
-                pressure.iter().zip(&right).map(relative).collect()
+                relative_to_means(pressure, &right)
             }
             _ => {
                 let right = position.iter().map(|&place| pick(exact.velocity(place, *time)));
                 velocity.iter().map(|&u| pick(u)).zip(right).collect()
             }
         };
+        Self::of_pairs(&pairs)
+    }
+
+    /// The same of what a problem without time gives, against the known field.
+    pub fn of_known(snapshot: &Snapshot, known: &Known, component: Component) -> Self {
+        let Snapshot { position, pressure, derivatives, .. } = snapshot;
+        let empty = Derivatives::default();
+        let derivatives = derivatives.as_ref().unwrap_or(&empty);
+        let scalar = |value: f64| DVec2::new(value, 0.0);
+        let places = position.iter();
+        // What the operators do not have is no number.
+        let gradient = |k: usize| derivatives.gradient.get(k).copied().unwrap_or(DVec2::NAN);
+        let laplacian = |k: usize| scalar(derivatives.laplacian.get(k).copied().unwrap_or(f64::NAN));
+        let pairs: Vec<(DVec2, DVec2)> = match component {
+            Component::Gradient => places.enumerate().map(|(k, &place)| (gradient(k), known.gradient(place))).collect(),
+            Component::Laplacian => {
+                places.enumerate().map(|(k, &place)| (laplacian(k), scalar(known.laplacian(place)))).collect()
+            }
+            _ => {
+                let right: Vec<f64> = places.map(|&place| known.value(place)).collect();
+                relative_to_means(pressure, &right)
+            }
+        };
+        Self::of_pairs(&pairs)
+    }
+
+    fn of_pairs(pairs: &[(DVec2, DVec2)]) -> Self {
         let rms = |of: &dyn Fn(&(DVec2, DVec2)) -> DVec2| {
             (pairs.iter().map(|pair| of(pair).length_squared()).sum::<f64>() / pairs.len() as f64).sqrt()
         };
         Self { difference: rms(&|(found, right)| *found - *right), exact: rms(&|(_, right)| *right) }
     }
+}
+
+/// Two scalar fields, each less its mean over the points.
+fn relative_to_means(found: &[f64], right: &[f64]) -> Vec<(DVec2, DVec2)> {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (zero, right_zero) = (mean(found), mean(right));
+    let relative = |(p, q): (&f64, &f64)| (DVec2::new(p - zero, 0.0), DVec2::new(q - right_zero, 0.0));
+    found.iter().zip(right).map(relative).collect()
 }

@@ -50,6 +50,8 @@ impl<'a> LineMeasure<'a> {
             Component::P => Cow::Borrowed(&snapshot.pressure),
             // Both at once: how fast.
             Component::Velocity => snapshot.velocity.iter().map(|u| u.length()).collect(),
+            // No problem that has them has a line.
+            Component::Gradient | Component::Laplacian => Cow::Borrowed(&[]),
         };
         if field.len() != sampler.points() {
             let name = if component == Component::P { "pressure" } else { "velocity" };

@@ -87,7 +87,7 @@ impl Plan {
     /// Derivatives of a known field, once.
     fn of_derivatives(case: &Case) -> Self {
         let interpolation = case.method.operators == Operators::Interpolation;
-        let laplacian = !interpolation || case.method.order > 1;
+        let laplacian = case.method.second_derivatives();
         let setup = Rows { operators: case.method.operators, laplacian, gradient: true }.setup(false);
         let mut kick = vec![Operation::Gradient];
         if laplacian {

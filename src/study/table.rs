@@ -185,6 +185,7 @@ impl Table {
     /// What the errors are of, in words.
     pub fn quantity(&self) -> String {
         match &self.errors[..] {
+            [one] if one.starts_with("error of") => format!("relative {one}"),
             [one] => format!("relative error of the {one}"),
             _ => "relative error".to_owned(),
         }

@@ -74,7 +74,10 @@ fn second_derivatives(case: &Case, needs: &str) -> Result<(), Fault> {
 }
 
 fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
-    require(pressure.tolerance > 0.0 && pressure.tolerance < 1.0, "effects.pressure.tolerance")?;
+    require(
+        pressure.tolerance.is_none_or(|tolerance| tolerance > 0.0 && tolerance < 1.0),
+        "effects.pressure.tolerance",
+    )?;
     require(pressure.max_iterations >= 1, "effects.pressure.max_iterations")?;
     if pressure.form != PressureForm::Collocated {
         return check_pair(pressure);

@@ -1,14 +1,14 @@
 //! Checks of the published values that a run is held to.
 
-use super::super::fault::{Fault, Problem};
-use super::super::{Case, Component, Expectation, Line, Measure, Profile};
+use super::super::fault::{self, Fault};
+use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile};
 use super::is_line;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     case.expect.iter().try_for_each(|(name, expectation)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if name.is_empty() || !name.chars().all(plain) {
-            return Err(Fault { path: vec!["expect".to_owned(), name.clone()], problem: Problem::Range });
+            return Err(Fault { path: vec!["expect".to_owned(), name.clone()], problem: fault::Problem::Range });
         }
         check_one(case, expectation, &|key| format!("expect.{name}.{key}"))
     })
@@ -32,17 +32,29 @@ fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Strin
 /// An error is taken over all points and against an exact solution, everything else along a line.
 fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     let Expectation { line, measure, component, .. } = expectation;
+    let problem = case.problem();
     if *measure == Measure::Error {
-        if case.exact.is_none() {
+        if case.exact.is_none() && problem == Problem::Flow {
             return Err(Fault::reason(&key("measure"), "there is no exact solution: the table exact is absent"));
+        }
+        let known: &[Component] = match problem {
+            Problem::Flow => &[Component::U, Component::V, Component::P, Component::Velocity],
+            Problem::Poisson(_) => &[Component::P],
+            Problem::Derivatives(_) => &[Component::Gradient, Component::Laplacian],
+        };
+        if !known.contains(component) {
+            return Err(Fault::reason(&key("component"), "is nothing that this problem computes"));
         }
         return match line {
             Some(_) => Err(Fault::reason(&key("line"), "belongs to the other measures: an error is over all points")),
             None => Ok(()),
         };
     }
-    if *component == Component::Velocity {
-        return Err(Fault::reason(&key("component"), "belongs to the measure error; along a line it is u or v"));
+    if matches!(problem, Problem::Derivatives(_)) {
+        return Err(Fault::reason(&key("measure"), "must be \"error\" with [derivatives]"));
+    }
+    if matches!(component, Component::Velocity | Component::Gradient | Component::Laplacian) {
+        return Err(Fault::reason(&key("component"), "belongs to the measure error; along a line it is u, v or p"));
     }
     let (at, length) = match line {
         None => return Err(Fault::missing(&key("line"))),

@@ -143,6 +143,8 @@ fn prepare(
         Component::V => ("v", "v", "m/s"),
         Component::P => ("p", "p less its value in the middle,", "Pa"),
         Component::Velocity => ("|u|", "speed", "m/s"),
+        Component::Gradient => ("∇φ", "gradient", "1/m"),
+        Component::Laplacian => ("∆φ", "Laplacian", "1/m²"),
     };
     let (along, heading) = match wanted.1 {
         Line::X(x) => ("y", format!("{what} along x = {} m", short(x, 4))),
