@@ -1,6 +1,6 @@
 // Advection, the paper's remap (section 5): the fit of each moved point, evaluated at its standing place r0.
 //
-// Discrete: u(r0) = u'_i + a1 x + a2 y + a3 x^2 + a4 xy + a5 y^2, (x, y) = (r0 - r') / r_e. Units: m/s.
+// Discrete: u(r0) = u'_i + a0 x + a1 y + a2 x^2 + a3 xy + a4 y^2 + ..., (x, y) = (r0 - r') / r_e. Units: m/s.
 
 #import evaluate
 #import space

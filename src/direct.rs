@@ -12,9 +12,10 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 
 use crate::cloud::voronoi::Cells;
+use crate::cpu::blocks;
 use crate::engine::{Data, EngineError};
 use crate::scene::Scene;
-use crate::step::{BLOCK, Buffer, Points};
+use crate::step::{Buffer, Points};
 
 /// A pressure matrix, factorised.
 pub struct DirectSolver(Factor);
@@ -131,7 +132,7 @@ pub fn collocated_rows(
     let Data::Real(row) = read(Buffer::MatrixRow)? else { return Err(EngineError::Absent(Buffer::MatrixRow)) };
     let slots = scene.sizes.capacity;
     let rows = (0..scene.sizes.points).map(|point| {
-        let at = |slot: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
+        let at = |slot: usize| blocks::at(point, slot, slots);
         let mut entries: Vec<(usize, f64)> =
             (0..count[point] as usize).map(|slot| (neighbours[at(slot)] as usize, row[at(slot)])).collect();
         let diagonal = -entries.iter().map(|&(_, value)| value).sum::<f64>();

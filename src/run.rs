@@ -61,10 +61,12 @@ pub fn run(
     let snapshot = &outcome.snapshot;
     output::points::write(&folder.points(), snapshot)?;
     output::vtu::write(&folder.vtu(), snapshot)?;
+    let mut summary = summarise(case_path, scene, &info, &outcome, &profiles)?;
+    // Before the pictures, lest they cost a run its numbers; and once more with the time that they took.
+    summary.write(&folder.summary())?;
     if scene.case.output.pictures {
         draw(folder, &scene.case, snapshot, &profiles)?;
     }
-    let mut summary = summarise(case_path, scene, &info, &outcome, &profiles)?;
     summary.seconds.output = began.elapsed().as_secs_f64();
     // The part of the setup before the operations: what is left of the time until now.
     let rest = prepared.elapsed().as_secs_f64() - summary.seconds.stepping - summary.seconds.output;
@@ -118,7 +120,7 @@ fn summarise(
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Summary, OutputError> {
     let real = if info.precision == "f32" { 4 } else { 8 };
-    let [widened, linear, nearest] = outcome.ladder;
+    let [widened, lowered, nearest] = outcome.ladder;
     let mut warnings = outcome.warnings.clone();
     if outcome.fallbacks > 0 {
         warnings.push(format!("{} pressure solves stalled and were solved directly", outcome.fallbacks));
@@ -145,7 +147,7 @@ fn summarise(
             Stop::NonFinite { .. } => StopReason::Failed,
         },
         seconds: Seconds { setup: outcome.setup.as_secs_f64(), stepping: outcome.stepping.as_secs_f64(), output: 0.0 },
-        fallbacks: Fallbacks { direct_solves: outcome.fallbacks, widened, linear, nearest },
+        fallbacks: Fallbacks { direct_solves: outcome.fallbacks, widened, lowered, nearest },
         iterations: outcome.iterations,
         warnings,
         bytes_per_point: scene.plan.total_bytes(&scene.sizes, real) as f64 / scene.sizes.points as f64,

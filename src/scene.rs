@@ -7,6 +7,7 @@ use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid, shortest};
+use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
 use crate::cpu::operations::pressure::Stop;
@@ -214,7 +215,7 @@ impl Scene {
         let length = self.padded() * slots;
         let (mut neighbour, mut weight) = (vec![0; length], vec![0.0; length]);
         let (mut count, mut diagonal) = (vec![0; self.padded()], vec![1.0; self.padded()]);
-        let at = |point: usize, slot: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
+        let at = |point: usize, slot: usize| blocks::at(point, slot, slots);
         for point in 0..self.padded() {
             let own = point.min(self.sizes.points - 1);
             (0..slots).for_each(|slot| neighbour[at(point, slot)] = own as u32);
@@ -239,8 +240,7 @@ impl Scene {
         let slots = self.sizes.flux_capacity;
         let (mut points, mut row) = (vec![0; self.padded() * slots], vec![0.0; 2 * self.padded() * slots]);
         let mut count = vec![0; self.padded()];
-        let at =
-            |point: usize, slot: usize, slots: usize| (point / BLOCK) * BLOCK * slots + slot * BLOCK + point % BLOCK;
+        let at = blocks::at;
         for point in 0..self.padded() {
             let own = point.min(self.sizes.points - 1);
             (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);

@@ -7,6 +7,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
+use crate::case::LONGEST_FORWARD;
 use crate::case::Splitting;
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
 use crate::known::Known;
@@ -95,6 +96,17 @@ pub enum SimulationError {
          allowed with the forward remap: at most 1"
     )]
     TooFastForForward { step: f64, speed: f64, courant: f64 },
+    #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
+    NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+}
+
+/// The first value of a snapshot that is no finite number: its column and its point.
+fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
+    let columns = snapshot.columns();
+    columns.iter().find_map(|column| {
+        let found = |point| column.at(point).find(|(_, value)| !value.is_finite()).map(|(name, _)| (name, point));
+        (0..column.len()).find_map(found)
+    })
 }
 
 /// Longest stretch of steps between two looks at the observer.
@@ -103,8 +115,6 @@ const STRETCH: Duration = Duration::from_millis(250);
 const VISCOUS_SAFETY: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
-/// A forward remap fits points where they were moved; farther than this its modes grow (spacings).
-const FORWARD_LIMIT: f64 = 1.0;
 
 /// Runs `scene` on `engine`, whose arrays hold what [`Scene::initial`] says.
 pub fn simulate(
@@ -226,6 +236,10 @@ impl Run<'_> {
             Some(_) => self.snapshot(0.0)?,
             None => self.derivatives()?,
         };
+        if let Some((field, point)) = not_finite(&snapshot) {
+            let place = self.scene.cloud.position[point];
+            return Err(SimulationError::NotFinite { field, point, x: place.x, y: place.y });
+        }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
         let warnings = self.warnings;
         Ok(Outcome { stop: Stop::End, steps: 0, snapshot, fallbacks, iterations, ladder, setup, stepping, warnings })
@@ -276,7 +290,7 @@ impl Run<'_> {
         }
         let dt = left / steps_in(left, longest);
         let courant = dt * speed / spacing;
-        if forward && courant > FORWARD_LIMIT * (1.0 + 1e-9) {
+        if forward && courant > LONGEST_FORWARD * (1.0 + 1e-9) {
             return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
         }
         if dt > self.limit && self.warnings.is_empty() {

@@ -9,7 +9,7 @@ pub const DEFAULT_MINIMUM_DISTANCE: f64 = 0.7;
 /// Seed of the jittered and random arrangements.
 pub const DEFAULT_SEED: u64 = 1;
 
-/// Radius of the neighbourhood of orders 1 to 4, in spacings: about twice as many neighbours as coefficients, walls cut half.
+/// Radius of the neighbourhood of orders 1 to 4, in spacings: about four times as many neighbours as coefficients inside, twice as many at a wall.
 pub const DEFAULT_RADIUS: [f64; 4] = [2.1, 2.6, 3.4, 4.2];
 
 impl Cloud {

@@ -14,7 +14,7 @@ pub(crate) mod load;
 mod reference;
 pub(crate) mod text;
 
-pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
+pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use reference::{Profile, ReferenceError};
@@ -384,7 +384,7 @@ fn default_courant() -> f64 {
 pub struct Output {
     /// Steps between two rows of diagnostics.
     pub report_every: u32,
-    /// Draw pressure.png, speed.png and centreline.png.
+    /// Draw the pictures: pressure.png, speed.png and centreline.png of a flow.
     pub pictures: bool,
 }
 

@@ -9,7 +9,7 @@ use super::args::CostArguments;
 use super::interrupt::StopFlag;
 use super::turns::Turns;
 use super::{CliError, print};
-use crate::study::{Completion, Journal, Machine, Study, StudyFolder, Table};
+use crate::study::{Completion, Journal, Machine, Study, StudyFolder, Table, plain};
 
 pub(super) fn cost(arguments: &CostArguments) -> Result<(), CliError> {
     let study = Study::load(&arguments.study, &arguments.overrides)?;
@@ -74,7 +74,7 @@ fn tell(table: &Table, completion: Completion, seconds: f64, folder: &StudyFolde
         match table.cheapest(target).map(|row| &table.rows[row]) {
             Some(row) => {
                 let seconds = table.place(row).map_or(0.0, |(_, seconds)| seconds.median);
-                print(format_args!("  {percent}%: {seconds:.3} s, {}", table.in_words(row)))?;
+                print(format_args!("  {percent}%: {} s, {}", plain(seconds), table.in_words(row)))?;
             }
             None => print(format_args!("  {percent}%: none reaches it"))?,
         }

@@ -84,8 +84,8 @@ impl Cloud {
         std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
     }
 
-    /// The velocity that the walls prescribe at each boundary point, m/s. A corner belongs to the side wall, not to the
-    /// lid: the fluid there rests.
+    /// The velocity that the walls prescribe at each boundary point, m/s. A corner takes what both its walls agree
+    /// on, else it rests: below a lid it belongs to the side wall.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
         let velocity = |side: &Side| DVec2::from_array(side.wall(boundaries).velocity);
         // A corner takes what both its walls agree on.

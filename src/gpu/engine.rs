@@ -146,7 +146,11 @@ impl GpuEngine {
         let Data::Real(source) = self.read(Buffer::Source)? else { return Err(EngineError::Absent(Buffer::Source)) };
         if source.iter().any(|value| !value.is_finite()) {
             self.solve.outcome = Outcome::BrokeDown;
-            return match self.first_non_finite(Buffer::Projected, 2)? {
+            let velocity = match self.scene.plan.flows {
+                true => self.first_non_finite(Buffer::Projected, 2)?,
+                false => None,
+            };
+            return match velocity {
                 Some(cause) => Ok(Some(cause)),
                 None => self.first_non_finite(Buffer::Source, 1),
             };

@@ -154,6 +154,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "gradient" => text!("gradient"),
         "fitted_flux" => text!("fitted_flux"),
         "evaluate" => text!("evaluate"),
+        "face_flux" => text!("face_flux"),
         "sums" => text!("sums"),
         "total" => text!("total"),
         "finite" => text!("finite"),

@@ -77,8 +77,8 @@ pub struct Fallbacks {
     pub direct_solves: u64,
     /// Points whose fit needed a wider radius.
     pub widened: u64,
-    /// Points whose fit is linear.
-    pub linear: u64,
+    /// Points whose fit is of a lower order.
+    pub lowered: u64,
     /// Points that take their nearest neighbour's value.
     pub nearest: u64,
 }

@@ -30,9 +30,9 @@ pub enum Operation {
     BuildCells(Points),
     /// Lists the points within the radius of each point.
     FindNeighbours(Points),
-    /// Forms and factorises the 5x5 normal matrix of each point's least squares.
+    /// Forms and factorises the normal matrix of each point's least squares.
     Factorise(Points),
-    /// Takes the points whose factorisation failed down the ladder: wider radius, linear fit, nearest value.
+    /// Takes the points whose factorisation failed down the ladder: wider radius, lower order, nearest value.
     WidenSupport(Points),
     /// Rows of the fitted Laplacian: the factor of each neighbour's difference.
     AssembleLaplacian,

@@ -143,8 +143,9 @@ impl Plan {
             laplacian: effects.viscosity.is_some() || collocated,
             gradient: effects.pressure.as_ref().is_some_and(|pressure| pressure.gradient() == case::Gradient::Fit),
         };
-        // What carries the velocity evaluates fits.
-        let mut setup = rows.setup(effects.advection.is_some());
+        // What carries the velocity evaluates fits, and so do reports where no cells measure the divergence.
+        let cells = effects.pressure.is_some() && !collocated;
+        let mut setup = rows.setup(effects.advection.is_some() || !cells);
         let mut drift = Vec::new();
         match effects.advection.as_ref().map(|advection| advection.remap) {
             None => drift.push(KeepVelocity),

@@ -5,8 +5,10 @@
 pub struct Rung;
 
 impl Rung {
-    /// Wider radii tried, over `r_e`; the last is the cap.
+    /// Wider radii tried, over `r_e`.
     pub const WIDER: [f64; 3] = [1.25, 1.5, 2.0];
+    /// The cap.
+    pub const WIDEST: f64 = Self::WIDER[Self::WIDER.len() - 1];
     /// Two coefficients, the gradient; second derivatives are zero.
     pub const LINEAR: u32 = Self::lowered(1);
     /// No coefficient: the value of the nearest point.

@@ -75,7 +75,7 @@ fn full(table: &Table, row: &Row) -> String {
     format!("| {} |", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
 }
 
-fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     short(value, 3)
 }
 

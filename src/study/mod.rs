@@ -23,6 +23,7 @@ pub use folder::StudyFolder;
 pub use journal::Journal;
 pub use load::{Study, StudyError};
 pub use machine::Machine;
+pub(crate) use markdown::plain;
 pub use run::{End, Run, RunSeconds};
 pub use session::{Completion, Turn};
 pub use setting::{EngineKind, Precision, Setting, Trial};

@@ -224,3 +224,40 @@ fn what_does_not_go_with_an_exact_solution_is_named() {
         assert!(message.contains(expected), "\n  {overrides:?} says\n  {message:?}, not\n  {expected:?}");
     }
 }
+
+/// Problems without time, and what is wrong beside them.
+#[test]
+fn what_does_not_go_with_a_problem_without_time_is_named() {
+    let text = "title = \"Problem\"\ndomain = { width = 1.0, height = 1.0 }\nfluid.density = 1.0\n\
+                cloud = { arrangement = \"jittered\", spacing = 0.05 }\n";
+    for (overrides, expected) in [
+        (&["derivatives.field=waves", "poisson.field=waves"][..], "poisson: a case has one problem"),
+        (&["derivatives.field=waves", "time.end=1.0"], "time: belongs to a flow, and there is [derivatives]"),
+        (&["derivatives.field=waves", "effects.viscosity.kinematic=0.1"], "effects: belongs to a flow"),
+        (&["derivatives.field=waves", "boundaries.top.velocity=[1.0, 0.0]"], "boundaries: belongs to a flow"),
+        (&["derivatives.field=ripples"], "derivatives.field = \"ripples\": must be \"waves\" or \"cosines\""),
+        (&["derivatives.field=cosines", "domain.periodic=both"], "derivatives.field: does not repeat with the domain"),
+        (&["poisson.field=cosines"], "poisson: needs the table [effects.pressure]"),
+        (&["poisson.field=waves", "effects.pressure.form=conservative"], "poisson.field: has a slope across the walls"),
+        (
+            &["poisson.field=cosines", "effects.pressure.divergence=fit"],
+            "effects.pressure.divergence: belongs to a flow, and there is [poisson]",
+        ),
+        (
+            &["poisson.field=cosines", "effects.pressure.form=conservative", "method.operators=integral"],
+            "method.operators: must be \"interpolation\" with [poisson]",
+        ),
+        (
+            &["method.order=1", "effects.viscosity.kinematic=0.1", "time.end=1.0"],
+            "method.order: must be 2, 3 or 4 with",
+        ),
+    ] {
+        let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+        let error = Case::from_text(text, Path::new("bad.toml"), &overrides).expect_err("a mistake").to_string();
+        // The value, where it is shown, stands between key and words.
+        let (key, words) = expected.split_once(": ").expect("a key and words");
+        let key = key.split(" = ").next().unwrap_or(key);
+        assert!(error.contains(key) && error.contains(words), "{overrides:?}: {error}, not {expected}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+}

@@ -37,6 +37,7 @@ fn every_option_changes_the_answer() {
     let base = run(&[]);
     for changed in [
         "method.weight=none",
+        "method.weight=quadratic",
         "method.order=3",
         "method.order=4",
         "method.operators=integral",
@@ -44,6 +45,7 @@ fn every_option_changes_the_answer() {
         "effects.viscosity.kinematic=0.011",
         "effects.pressure.form=collocated",
         "effects.pressure.gradient=adjoint",
+        "effects.pressure.divergence=fit",
         "effects.pressure.tolerance=1e-2",
         "effects.advection.remap=forward",
         "time.splitting=projection",

@@ -1,9 +1,15 @@
 //! Orders 1 to 4 and the two families of operators: exact on polynomials, orders of convergence, and what scattered points do to
 //! weighted means.
 
+use std::sync::Arc;
+
 use glam::DVec2;
-use stillpoint::case::Case;
+use stillpoint::case::{Case, Component};
+use stillpoint::cpu;
 use stillpoint::known::Known;
+use stillpoint::measure::FieldError;
+use stillpoint::scene::Scene;
+use stillpoint::simulation::simulate;
 use stillpoint::step::{Buffer, Operation, Points};
 
 use crate::bench::{Bench, order};
@@ -171,5 +177,32 @@ fn the_integral_form_is_the_formulas_of_the_paper() {
         assert!((average[i] - value).abs() < 1e-12, "value at {i}");
         assert!((gradient[i] - slope).length() < 1e-10, "gradient at {i}");
         assert!((laplacian[i] - curvature).abs() < 1e-8, "Laplacian at {i}");
+    }
+}
+
+/// Relative rms error of the solution of the pressure equation.
+fn poisson_error(n: usize, overrides: &[&str]) -> f64 {
+    let case = problem(n, &[&["effects.pressure.tolerance=1e-9"], overrides].concat());
+    let scene = Arc::new(Scene::build(&case).expect("a scene"));
+    let outcome = simulate(&scene, cpu::double(&scene).expect("an engine").as_mut(), &mut ()).expect("a run");
+    assert_eq!(outcome.fallbacks, 0, "{overrides:?}");
+    let known = Known::of(&case).expect("a known field");
+    let FieldError { difference, exact } = FieldError::of_known(&outcome.snapshot, &known, Component::P);
+    difference / exact
+}
+
+#[test]
+fn the_pressure_equation_gives_the_known_field_at_order_two() {
+    let collocated: &[&str] =
+        &["effects.pressure.form=collocated", "method.radius=3.1", "method.weight=quadratic", "poisson.field=cosines"];
+    for (overrides, least) in [
+        (&["poisson.field=cosines"][..], 1.9),
+        (&["poisson.field=waves", "domain.periodic=both"], 1.9),
+        (&["poisson.field=waves", "domain.periodic=x"], 1.9),
+        (collocated, 1.8),
+    ] {
+        let (coarse, fine) = (poisson_error(24, overrides), poisson_error(72, overrides));
+        let found = order((24, coarse), (72, fine));
+        assert!(found > least && fine < 0.01, "{overrides:?}: order {found}, from {coarse} to {fine}");
     }
 }

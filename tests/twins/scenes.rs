@@ -77,10 +77,23 @@ const CHANGES: [(&str, &[&str]); 10] = [
 ];
 
 /// Problems without time.
-const PROBLEMS: [(&str, &[&str]); 3] = [
+const PROBLEMS: [(&str, &[&str]); 7] = [
     ("derivatives, interpolation", &["derivatives.field=waves"]),
     ("derivatives, integral", &["derivatives.field=waves", "method.operators=integral"]),
     ("derivatives, order 4", &["derivatives.field=waves", "method.order=4"]),
+    ("poisson, conservative", &["poisson.field=cosines", TIGHT]),
+    (
+        "poisson, collocated",
+        &[
+            "poisson.field=cosines",
+            "effects.pressure.form=collocated",
+            "method.radius=3.1",
+            "method.weight=quadratic",
+            TIGHT,
+        ],
+    ),
+    ("poisson, direct", &["poisson.field=cosines", "effects.pressure.solver=direct"]),
+    ("poisson, periodic", &["poisson.field=waves", "domain.periodic=both", TIGHT]),
 ];
 
 /// Makes a case of so many spacings a metre and such changes.
@@ -120,6 +133,11 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     for (name, changes) in PROBLEMS {
         scenes.push((name, Arc::new(Scene::build(&problem(ACROSS, changes)).expect("a scene"))));
     }
+    let mut diffusion = cavity_of(ACROSS, &["cloud.arrangement=jittered", "method.operators=integral"]);
+    (diffusion.effects.pressure, diffusion.effects.advection) = (None, None);
+    scenes.push(("viscosity alone, integral", Arc::new(Scene::build(&diffusion).expect("a scene"))));
+    let integral = of(&["cloud.arrangement=jittered", "method.operators=integral"]);
+    scenes.push(("integral", Arc::new(integral)));
     scenes.push(("rows of points", Arc::new(ladder(2))));
     scenes.push(("rows of points, order 4", Arc::new(ladder(4))));
     // The sums over workgroups take more than one round, and more than one tile of cells.

@@ -1,3 +1,4 @@
 //! Whole flows against published values: case, quantity, published value, tolerance, source.
 
 mod cavity;
+mod known;

@@ -2,12 +2,12 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Case, Divergence, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Solver, Time,
+    Boundaries, Case, Divergence, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Solver, Time,
 };
 use super::require;
 
 /// Largest displacement of a forward remap, in spacings: beyond, its worst mode grows in every step.
-const FORWARD_COURANT: f64 = 1.0;
+pub const LONGEST_FORWARD: f64 = 1.0;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     if case.problem() != Problem::Flow {
@@ -50,6 +50,9 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if viscosity.is_some() || advection.is_some() || (pressure.is_some() && case.derivatives.is_some()) {
         return stray("effects");
     }
+    if case.boundaries != Boundaries::default() {
+        return stray("boundaries");
+    }
     let Some(pressure) = (match case.problem() {
         Problem::Poisson(_) => pressure.as_ref(),
         _ => return Ok(()),
@@ -59,6 +62,12 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if case.method.operators == Operators::Integral {
         return Err(Fault::reason("method.operators", "must be \"interpolation\" with [poisson]"));
     }
+    if pressure.divergence.is_some() {
+        return stray("effects.pressure.divergence");
+    }
+    if pressure.gradient.is_some() {
+        return stray("effects.pressure.gradient");
+    }
     if pressure.form == PressureForm::Collocated {
         second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
     }
@@ -67,7 +76,7 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
 
 /// A fit of order 1 has none.
 fn second_derivatives(case: &Case, needs: &str) -> Result<(), Fault> {
-    if case.method.order > 1 {
+    if case.method.second_derivatives() {
         return Ok(());
     }
     Err(Fault::reason("method.order", format!("must be 2, 3 or 4 with {needs}, which needs second derivatives")))
@@ -111,7 +120,7 @@ fn check_pair(pressure: &Pressure) -> Result<(), Fault> {
 
 fn check_remap(case: &Case) -> Result<(), Fault> {
     let forward = case.effects.advection.as_ref().is_some_and(|advection| advection.remap == Remap::Forward);
-    if forward && case.time.courant > FORWARD_COURANT {
+    if forward && case.time.courant > LONGEST_FORWARD {
         let reason = "must be at most 1 with effects.advection.remap = \"forward\", whose errors grow beyond; \
                       use \"departure\" for longer steps";
         return Err(Fault::reason("time.courant", reason));

@@ -36,6 +36,10 @@ fn check_known(case: &Case) -> Result<(), Fault> {
     let key = match case.problem() {
         Problem::Derivatives(Field::Cosines) => "derivatives.field",
         Problem::Poisson(Field::Cosines) => "poisson.field",
+        Problem::Poisson(Field::Waves) if !case.domain.periodic.each()[0] => {
+            let reason = "has a slope across the walls at left and right: it needs domain.periodic = \"x\" or \"both\"";
+            return Err(Fault::reason("poisson.field", reason));
+        }
         _ => return Ok(()),
     };
     match case.domain.periodic {

@@ -50,6 +50,9 @@ fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Stri
             None => Ok(()),
         };
     }
+    if matches!(problem, Problem::Poisson(_)) && *component != Component::P {
+        return Err(Fault::reason(&key("component"), "must be \"p\" with [poisson]"));
+    }
     if matches!(problem, Problem::Derivatives(_)) {
         return Err(Fault::reason(&key("measure"), "must be \"error\" with [derivatives]"));
     }

@@ -1,0 +1,49 @@
+//! The shipped cases whose answer is known in closed form, as they are shipped: flows, derivatives, the Poisson equation.
+//!
+//! Quantities, tolerances and sources are those of the case files.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use stillpoint::case::Case;
+use stillpoint::cpu;
+use stillpoint::measure::{ExpectationResult, evaluate};
+use stillpoint::run::profiles;
+use stillpoint::scene::Scene;
+use stillpoint::simulation::simulate;
+
+fn measured(name: &str, overrides: &[&str]) -> Vec<ExpectationResult> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+    let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+    let case = Case::load(&path, &overrides).expect("a shipped case");
+    let scene = Arc::new(Scene::build(&case).expect("a scene"));
+    let outcome = simulate(&scene, cpu::double(&scene).expect("an engine").as_mut(), &mut ()).expect("a run");
+    assert_eq!((outcome.fallbacks, &outcome.warnings[..]), (0, &[][..]), "{name}");
+    evaluate(&case, &outcome.snapshot, &profiles(&case).expect("profiles")).expect("measurements")
+}
+
+const CASES: [&str; 4] = ["taylor_green.toml", "kovasznay.toml", "derivatives.toml", "poisson.toml"];
+
+#[test]
+fn every_error_is_within_its_tolerance() {
+    for name in CASES {
+        let rows = measured(name, &[]);
+        assert!(!rows.is_empty(), "{name} expects nothing");
+        for row in rows {
+            assert!(row.pass, "{name}: {} is {:?}, tolerance {}", row.quantity, row.error, row.tolerance);
+        }
+    }
+}
+
+/// What would spoil each is seen.
+#[test]
+fn errors_beyond_their_tolerance_are_missed() {
+    for (name, spoiled) in [
+        ("taylor_green.toml", "effects.pressure.divergence=faces"),
+        ("kovasznay.toml", "effects.pressure.divergence=faces"),
+        ("derivatives.toml", "method.operators=integral"),
+        ("poisson.toml", "cloud.spacing=0.1"),
+    ] {
+        assert!(measured(name, &[spoiled]).iter().all(|row| !row.pass), "{name} with {spoiled}");
+    }
+}
