@@ -99,7 +99,7 @@ impl Canvas {
     pub fn save(&self, path: &Path) -> Result<(), OutputError> {
         write_whole(path, |file| {
             let (width, height) = self.image.dimensions();
-            PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Up)
+            PngEncoder::new_with_quality(file, CompressionType::Default, FilterType::NoFilter)
                 .write_image(self.image.as_raw(), width, height, image::ExtendedColorType::Rgb8)
                 .map_err(|source| OutputError::Image { path: path.to_owned(), source })
         })
