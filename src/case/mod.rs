@@ -14,7 +14,7 @@ pub(crate) mod load;
 mod reference;
 pub(crate) mod text;
 
-pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS};
+pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use reference::{Profile, ReferenceError};

@@ -1,14 +1,14 @@
 //! The ladder that a point's fit steps down when its normal matrix is too weak.
 
+use crate::case::WIDEST_LADDER;
+
 /// Where on the ladder a point's fit stands, as stored: 0 for the full fit at the radius asked for, then the steps of
 /// [`Rung::WIDER`], then fits of lower order at that radius, [`Rung::LINEAR`] the last, then [`Rung::NEAREST`].
 pub struct Rung;
 
 impl Rung {
-    /// Wider radii tried, over `r_e`.
-    pub const WIDER: [f64; 3] = [1.25, 1.5, 2.0];
-    /// The cap.
-    pub const WIDEST: f64 = Self::WIDER[Self::WIDER.len() - 1];
+    /// Wider radii tried, over `r_e`; the last is the cap.
+    pub const WIDER: [f64; 3] = [1.25, 1.5, WIDEST_LADDER];
     /// Two coefficients, the gradient; second derivatives are zero.
     pub const LINEAR: u32 = Self::lowered(1);
     /// No coefficient: the value of the nearest point.

@@ -2,8 +2,8 @@
 
 use stillpoint::cpu::operations::collocated::Collocated;
 use stillpoint::cpu::operations::conservative::{Conservative, Faces};
+use stillpoint::cpu::operations::lists::Lists;
 use stillpoint::cpu::operations::pressure::Rows;
-use stillpoint::cpu::operations::rows::Lists;
 use stillpoint::cpu::real::{Pack, Real};
 use stillpoint::step::{Buffer, Operation, Points};
 

@@ -3,7 +3,6 @@
 use super::super::fault::Fault;
 use super::super::{Arrangement, Case, Cloud, Domain};
 use super::require;
-use crate::step::Rung;
 
 /// Most points of a cloud.
 pub const LARGEST_CLOUD: f64 = 1e8;
@@ -11,6 +10,9 @@ pub const LARGEST_CLOUD: f64 = 1e8;
 pub const SMALLEST_RADIUS: f64 = 1.5;
 /// The radius of the neighbourhood is at most this, in spacings: a lattice point then has 80 neighbours.
 pub const LARGEST_RADIUS: f64 = 5.0;
+
+/// The widest radius that the fit of a point with too few neighbours takes, over `method.radius`.
+pub const WIDEST_LADDER: f64 = 2.0;
 
 /// Fewest spacings along a side.
 const FEWEST_CELLS: f64 = 4.0;
@@ -152,11 +154,11 @@ fn check_walls(case: &Case) -> Result<(), Fault> {
 
 /// The shortest way between two points is one way alone: a box is wider than any neighbourhood.
 fn check_period(case: &Case) -> Result<(), Fault> {
-    let least = 2.0 * Rung::WIDEST * case.method.radius() * case.cloud.spacing;
+    let least = 2.0 * WIDEST_LADDER * case.method.radius() * case.cloud.spacing;
     let period = case.domain.period();
     for (key, length) in [("domain.width", period.x), ("domain.height", period.y)] {
         if length > 0.0 && length <= least {
-            let spacings = 2.0 * Rung::WIDEST;
+            let spacings = 2.0 * WIDEST_LADDER;
             let reason = format!(
                 "must be above {least}, {spacings} times method.radius in spacings, where domain.periodic has the axis repeat: \
                  else a point would meet another twice; take a smaller cloud.spacing"

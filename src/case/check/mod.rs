@@ -10,7 +10,7 @@ use super::{Case, Problem};
 
 pub use effects::LONGEST_FORWARD;
 pub(super) use expectations::check_profiles;
-pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS};
+pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
 
 /// Most steps of one run: more would take years.
 const MOST_STEPS: f64 = 1e9;

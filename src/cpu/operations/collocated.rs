@@ -9,8 +9,8 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::derivative::Gradient;
+use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::pressure::Rows;
-use crate::cpu::operations::rows::Lists;
 use crate::cpu::real::{Pack, Real};
 
 /// The rows: the factor of `p_j - p_i` for every neighbour slot, blocked.

@@ -1,7 +1,7 @@
 //! Derivatives of fields by the rows at hand: viscosity, the pressure gradient, and those of a known field. What the rows are is in [`super::rows`].
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::rows::Lists;
+use crate::cpu::operations::lists::Lists;
 use crate::cpu::real::{Pack, Real};
 
 /// Rows of the Laplacian over the neighbours of every point.

@@ -2,9 +2,9 @@
 
 use crate::case::Weight;
 use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::moments::{self, LARGEST_ORDER, Moments, PIVOT_THRESHOLD};
 use crate::cpu::operations::neighbours::Search;
-use crate::cpu::operations::rows::Lists;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{One, Pack, Real};
 use crate::step::Rung;

@@ -3,8 +3,8 @@
 use crate::case::Weight;
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::fit::Stencil;
+use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::moments;
-use crate::cpu::operations::rows::Lists;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
 

@@ -9,6 +9,7 @@ pub mod fit;
 pub mod fits;
 pub mod integral;
 pub mod kick;
+pub mod lists;
 pub mod measure;
 pub mod moments;
 pub mod neighbours;
