@@ -25,7 +25,7 @@ pub fn factorise<T: Real, S: Space<T>, const N: usize, const F: usize, const M: 
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let stencil = Stencil::new(space, position, support, lists, block * BLOCK + first);
             let mut sums = Moments::<T::Pack, M>::zero();
-            stencil.for_each(|_, [x, y], square| sums.add(x, y, moments::weight(weight, square)));
+            stencil.for_each(|_, _, [x, y], square| sums.add(x, y, moments::weight(weight, square)));
             let (entries, pivots): (_, [T::Pack; N]) = moments::factorise(sums.matrix::<F>());
             for (k, entry) in entries.into_iter().enumerate() {
                 entry.store(&mut factor[k * BLOCK + first..]);
@@ -59,15 +59,15 @@ impl<'a, T: Real, S: Space<T>> Stencil<'a, T, S> {
         Self { space, position, lists, i, own, per_support }
     }
 
-    /// Calls `body(indexes, scaled offset, its square)` for every slot.
+    /// Calls `body(slot, indexes, scaled offset, its square)` for every slot.
     #[inline(always)]
-    pub fn for_each(&self, mut body: impl FnMut(&[u32], [T::Pack; 2], T::Pack)) {
-        self.lists.for_each::<T>(self.i, |_, index| {
+    pub fn for_each(&self, mut body: impl FnMut(usize, &[u32], [T::Pack; 2], T::Pack)) {
+        self.lists.for_each::<T>(self.i, |slot, index| {
             // SAFETY: every stored neighbour is below the number of points: the search puts nothing else there, and
             // `Fields::write` checks what comes from outside.
             let [x, y] = unsafe { T::Pack::gather_vectors(self.position, index) };
             let [x, y] = self.space.shortest([x - self.own[0], y - self.own[1]]).map(|d| d * self.per_support);
-            body(index, [x, y], x * x + y * y);
+            body(slot, index, [x, y], x * x + y * y);
         });
     }
 }

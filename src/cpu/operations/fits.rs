@@ -43,7 +43,7 @@ impl<T: Real, S: Space<T>, const N: usize, const F: usize> Fits<'_, T, S, N, F> 
         let own = T::Pack::load_vectors(&field[2 * i..]);
         let mut right = [[T::Pack::zero(); N]; 2];
         let stencil = self.stencil(i);
-        stencil.for_each(|index, [x, y], square| {
+        stencil.for_each(|_, index, [x, y], square| {
             // SAFETY: as in `Stencil::for_each`.
             let [u, v] = unsafe { T::Pack::gather_vectors(field, index) };
             let weight = moments::weight(self.weight, square);

@@ -60,11 +60,9 @@ impl<T: Real, S: Space<T>> Means<'_, T, S> {
     fn for_each(&self, i: usize, mut body: impl FnMut(usize, &[u32], [T::Pack; 2], T::Pack, T::Pack)) {
         let stencil = Stencil::new(self.space, self.position, self.support, self.lists, i);
         let (one, zero) = (T::Pack::splat(T::from_f64(1.0)), T::Pack::zero());
-        let mut slot = 0;
-        stencil.for_each(|index, d, square| {
+        stencil.for_each(|slot, index, d, square| {
             let weight = square.select_above(zero, one / square.sqrt() - one, zero);
             body(slot, index, d, square, weight.max(zero));
-            slot += 1;
         });
     }
 }

@@ -25,10 +25,9 @@ pub fn assemble_laplacian<T: Real, S: Space<T>, const N: usize, const F: usize>(
             of[2] = T::Pack::splat(T::from_f64(2.0)) * stencil.per_support * stencil.per_support;
             of[4] = of[2];
             let c = moments::solve(&fits.factor(i), of);
-            let mut place = first;
-            stencil.for_each(|_, [x, y], square| {
-                (moments::weight(fits.weight, square) * dot(&c, moments::basis(x, y))).store(&mut out[place..]);
-                place += BLOCK;
+            stencil.for_each(|slot, _, [x, y], square| {
+                let factor = moments::weight(fits.weight, square) * dot(&c, moments::basis(x, y));
+                factor.store(&mut out[slot * BLOCK + first..]);
             });
         }
     });
@@ -46,12 +45,10 @@ pub fn assemble_gradient<T: Real, S: Space<T>, const N: usize, const F: usize>(f
                 of[axis] = stencil.per_support;
                 moments::solve(&factor, of)
             });
-            let mut place = first;
-            stencil.for_each(|_, [x, y], square| {
+            stencil.for_each(|slot, _, [x, y], square| {
                 let (weight, basis) = (moments::weight(fits.weight, square), moments::basis(x, y));
-                (weight * dot(&c[0], basis)).store(&mut out[place..]);
-                (weight * dot(&c[1], basis)).store(&mut out[slots * BLOCK + place..]);
-                place += BLOCK;
+                (weight * dot(&c[0], basis)).store(&mut out[slot * BLOCK + first..]);
+                (weight * dot(&c[1], basis)).store(&mut out[(slots + slot) * BLOCK + first..]);
             });
         }
     });
