@@ -54,6 +54,8 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// m/s^2; 0 without gravity.
+    pub gravity: DVec2,
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
@@ -116,6 +118,7 @@ impl Scene {
             lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
+            gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
@@ -144,6 +147,13 @@ impl Scene {
                 rest.chain(cloud.wall_velocity(&self.case.boundaries)).collect()
             }
         }
+    }
+
+    /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
+    /// begins with. Along an axis that has no walls nothing does.
+    pub fn balanced_gravity(&self) -> DVec2 {
+        let closed = self.constants.period.map(|length| f64::from(u8::from(length == 0.0)));
+        closed * self.constants.gravity
     }
 
     /// Lengths in time of a step of `dt` s.

@@ -282,7 +282,7 @@ impl Run<'_> {
         let longest = time.step.unwrap_or_else(|| {
             let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
             let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
-            by_motion.min(self.limit)
+            by_motion.min(self.by_fall()).min(self.limit)
         });
         let left = time.end - now;
         if left <= 0.0 {
@@ -300,6 +300,15 @@ impl Run<'_> {
         Ok(dt)
     }
 
+    /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
+    fn by_fall(&self) -> f64 {
+        let (gravity, spacing) = (self.scene.constants.gravity.length(), self.scene.constants.spacing);
+        match self.scene.case.effects.advection {
+            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
@@ -307,6 +316,11 @@ impl Run<'_> {
             return Ok(());
         }
         let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
+        let balance = clock.kick * self.scene.balanced_gravity();
+        if balance != DVec2::ZERO {
+            let inside = vec![balance; self.scene.sizes.interior];
+            self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
+        }
         for &operation in &self.scene.plan.kick {
             self.engine.apply(operation, &clock)?;
         }
