@@ -11,6 +11,7 @@ use faer::sparse::linalg::solvers::{Llt, Lu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 
+use crate::case::PressureForm;
 use crate::cloud::voronoi::Cells;
 use crate::cpu::blocks;
 use crate::engine::{Data, EngineError};
@@ -22,7 +23,16 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
-    General { lu: Box<Lu<usize, f64>>, rows: Vec<Vec<(usize, f64)>>, ones: Vec<f64> },
+    General {
+        lu: Box<Lu<usize, f64>>,
+        rows: Vec<Vec<(usize, f64)>>,
+        ones: Vec<f64>,
+    },
+    /// Regular: the pressure is given somewhere.
+    Regular {
+        lu: Box<Lu<usize, f64>>,
+        rows: Vec<Vec<(usize, f64)>>,
+    },
 }
 
 impl DirectSolver {
@@ -31,7 +41,12 @@ impl DirectSolver {
         if let Some(cells) = scene.cells() {
             return Self::conservative(cells);
         }
-        Self::collocated(collocated_rows(scene, read)?)
+        let rows = collocated_rows(scene, read)?;
+        if scene.plan.moves() {
+            let sign = if scene.plan.form == Some(PressureForm::Integral) { -1.0 } else { 1.0 };
+            return Self::regular(rows, sign);
+        }
+        Self::collocated(rows)
     }
 
     /// The matrix `K` of the conservative form.
@@ -63,7 +78,24 @@ impl DirectSolver {
         Ok(Self(Factor::General { lu: Box::new(lu), rows, ones }))
     }
 
-    /// The pressure of mean zero for a right side of one entry a point, Pa.
+    /// A matrix whose rows sum to zero, times `sign`, but for empty ones: there the pressure is given.
+    fn regular(mut rows: Vec<Vec<(usize, f64)>>, sign: f64) -> Result<Self, EngineError> {
+        for (point, row) in rows.iter_mut().enumerate() {
+            row.iter_mut().for_each(|(_, value)| *value *= sign);
+            if row.iter().all(|&(_, value)| value == 0.0) {
+                *row = vec![(point, 1.0)];
+            }
+        }
+        let entries: Vec<_> = rows
+            .iter()
+            .enumerate()
+            .flat_map(|(point, row)| row.iter().map(move |&(column, value)| Triplet::new(point, column, value)))
+            .collect();
+        let lu = sparse(rows.len(), &entries)?.sp_lu().map_err(failed)?;
+        Ok(Self(Factor::Regular { lu: Box::new(lu), rows }))
+    }
+
+    /// The pressure, of mean zero where only its differences count, for a right side of one entry a point, Pa.
     pub fn solve(&self, source: &[f64]) -> Result<Vec<f64>, EngineError> {
         let mut pressure = match &self.0 {
             Factor::Symmetric(factor) => {
@@ -74,6 +106,7 @@ impl DirectSolver {
                 pressure.push(0.0);
                 pressure
             }
+            Factor::Regular { lu, rows } => solve(lu.as_ref(), &source[..rows.len()]),
             Factor::General { lu, rows, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
@@ -83,8 +116,10 @@ impl DirectSolver {
                 pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
             }
         };
-        let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
-        pressure.iter_mut().for_each(|p| *p -= mean);
+        if !matches!(self.0, Factor::Regular { .. }) {
+            let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
+            pressure.iter_mut().for_each(|p| *p -= mean);
+        }
         if pressure.iter().all(|p| p.is_finite()) {
             Ok(pressure)
         } else {
@@ -96,7 +131,9 @@ impl DirectSolver {
     /// it: over the volume in the conservative form.
     pub fn residual(&self, scene: &Scene, source: &[f64], pressure: &[f64]) -> f64 {
         let of = |point: usize| match (&self.0, scene.cells()) {
-            (Factor::General { rows, .. }, _) => source[point] - product(&rows[point], pressure),
+            (Factor::General { rows, .. } | Factor::Regular { rows, .. }, _) => {
+                source[point] - product(&rows[point], pressure)
+            }
             (_, Some(cells)) => {
                 let own = pressure[point];
                 source[point] - cells.faces(point).map(|(other, weight)| weight * (own - pressure[other])).sum::<f64>()
@@ -105,7 +142,8 @@ impl DirectSolver {
         };
         let mut left: Vec<f64> = (0..scene.sizes.points).map(of).collect();
         let points = left.len() as f64;
-        let mean = left.iter().sum::<f64>() / points;
+        let singular = !matches!(self.0, Factor::Regular { .. });
+        let mean = if singular { left.iter().sum::<f64>() / points } else { 0.0 };
         left.iter_mut().for_each(|r| *r -= mean);
         if let Some(cells) = scene.cells() {
             left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);

@@ -11,6 +11,7 @@ pub mod exact;
 pub mod gpu;
 pub mod known;
 pub mod measure;
+pub mod motion;
 pub mod output;
 pub mod run;
 pub mod scene;

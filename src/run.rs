@@ -10,8 +10,9 @@ use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
 use crate::known::Known;
 use crate::measure::evaluate;
+use crate::motion;
 use crate::output::{
-    self, Adapter, DiagnosticsWriter, Fallbacks, OutputError, RunFolder, Seconds, StopReason, Summary,
+    self, Adapter, DiagnosticsWriter, Fallbacks, MotionWriter, OutputError, RunFolder, Seconds, StopReason, Summary,
 };
 use crate::scene::Scene;
 use crate::simulation::{self, Diagnostics, Observer, Outcome, SimulationError, Stop};
@@ -50,7 +51,8 @@ pub fn run(
     let prepared = Instant::now();
     // Without time there is nothing to report on the way.
     let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
-    let mut writer = Recorder { rows, observer, failed: None };
+    let motion = scene.plan.moves().then(|| MotionWriter::create(folder, &scene.case)).transpose()?;
+    let mut writer = Recorder { rows, motion, observer, failed: None };
     let outcome = simulation::simulate(scene, engine, &mut writer)?;
     if let Some(error) = writer.failed {
         return Err(error.into());
@@ -144,7 +146,7 @@ fn summarise(
             Stop::Steady => StopReason::Steady,
             Stop::End => StopReason::End,
             Stop::Interrupted => StopReason::Interrupted,
-            Stop::NonFinite { .. } => StopReason::Failed,
+            Stop::NonFinite { .. } | Stop::Diverged { .. } => StopReason::Failed,
         },
         seconds: Seconds { setup: outcome.setup.as_secs_f64(), stepping: outcome.stepping.as_secs_f64(), output: 0.0 },
         fallbacks: Fallbacks { direct_solves: outcome.fallbacks, widened, lowered, nearest },
@@ -156,6 +158,12 @@ fn summarise(
 }
 
 fn trouble(outcome: &Outcome) -> Option<String> {
+    if let Stop::Diverged { reason, step } = &outcome.stop {
+        return Some(format!(
+            "diverged at or shortly before step {step}: {reason}; kept: the state at {} s",
+            outcome.snapshot.time
+        ));
+    }
     let Stop::NonFinite { field, place, step } = &outcome.stop else { return None };
     Some(format!(
         "{} of point {} at ({}, {}) m turned non-finite in or shortly before step {step}; kept: the state at {} s; try a smaller time.courant",
@@ -170,6 +178,7 @@ fn trouble(outcome: &Outcome) -> Option<String> {
 /// Writes every row before it shows it.
 struct Recorder<'a> {
     rows: Option<DiagnosticsWriter>,
+    motion: Option<MotionWriter>,
     observer: &'a mut dyn Observer,
     failed: Option<OutputError>,
 }
@@ -180,6 +189,20 @@ impl Observer for Recorder<'_> {
             self.failed.get_or_insert(error);
         }
         self.observer.report(row);
+    }
+
+    fn moved(&mut self, row: &motion::Row) {
+        if let Some(Err(error)) = self.motion.as_mut().map(|motion| motion.append(row)) {
+            self.failed.get_or_insert(error);
+        }
+        self.observer.moved(row);
+    }
+
+    fn frame(&mut self, snapshot: &Snapshot) {
+        if let Some(Err(error)) = self.motion.as_mut().map(|motion| motion.keep(snapshot)) {
+            self.failed.get_or_insert(error);
+        }
+        self.observer.frame(snapshot);
     }
 
     fn stop_requested(&self) -> bool {

@@ -8,8 +8,9 @@ use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
 use crate::cloud::{Cloud, CloudError, grid, shortest};
 use crate::cpu::blocks;
-use crate::cpu::operations::integral::Lattice;
+use crate::cpu::operations::integral::{self, Lattice};
 use crate::cpu::operations::moments;
+use crate::cpu::operations::moving::{collide, surface};
 use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
 use crate::exact::Exact;
@@ -50,6 +51,12 @@ pub struct Constants {
     pub spacing: f64,
     /// What the integral form divides by.
     pub lattice: Lattice,
+    /// The same sum of the weight that fits measure density with, `(1 - (r/r_e)^2)^2`.
+    pub crowd: f64,
+    /// Fewest neighbours of a point inside a fluid that moves.
+    pub fewest: u32,
+    /// Share of an error in density that a step takes out, on points that move.
+    pub relaxation: f64,
     /// kg/m^3
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
@@ -90,9 +97,16 @@ impl Scene {
         let plan = Plan::new(case);
         let radius = case.method.radius() * cloud.spacing;
         let grid = Grid::new(cloud.size, cloud.period, radius);
-        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
-        let moves = plan.drift.contains(&Operation::MovePoints);
-        let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
+        // Where the fluid ends a point may have few neighbours.
+        let needed = if plan.moves() { 0 } else { moments::coefficients(case.method.order) };
+        let most = survey(&cloud, radius, case.method.radius(), needed)?;
+        let capacity = if plan.moves() {
+            2 * most
+        } else if plan.drift.contains(&Operation::MovePoints) {
+            most + most / 3 + 2
+        } else {
+            most.max(12)
+        };
         let conservative = plan.form == Some(PressureForm::Conservative);
         let cells = conservative.then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
@@ -100,6 +114,7 @@ impl Scene {
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
+            pressured: cloud.pressured,
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
@@ -116,13 +131,22 @@ impl Scene {
             period: cloud.period,
             spacing: cloud.spacing,
             lattice: Lattice::new(radius, cloud.spacing),
+            crowd: integral::lattice_sum(radius, cloud.spacing, |_, square| (1.0 - square).powi(2)),
+            fewest: (surface::FEW * integral::lattice_sum(radius, cloud.spacing, |_, _| 1.0)).round() as u32,
+            relaxation: case.relaxation(),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
-            shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
+            shift: if plan.moves() {
+                0.0
+            } else if conservative {
+                4.0
+            } else {
+                -4.0 / cloud.spacing.powi(2)
+            },
         };
         Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
     }
@@ -142,6 +166,17 @@ impl Scene {
         let cloud = &self.cloud;
         match &self.exact {
             Some(exact) => cloud.position.iter().map(|&place| exact.velocity(place, 0.0)).collect(),
+            None if self.plan.moves() => {
+                let rotation = self.case.initial.rotation;
+                let middle = self
+                    .case
+                    .cloud
+                    .fill
+                    .as_ref()
+                    .map_or(DVec2::ZERO, |fill| 0.5 * (DVec2::from(fill.from) + DVec2::from(fill.to)));
+                let fluid = cloud.position[..cloud.interior].iter().map(|&place| rotation * (place - middle).perp());
+                fluid.chain(std::iter::repeat_n(DVec2::ZERO, cloud.len() - cloud.interior)).collect()
+            }
             None => {
                 let rest = std::iter::repeat_n(DVec2::ZERO, cloud.interior);
                 rest.chain(cloud.wall_velocity(&self.case.boundaries)).collect()
@@ -154,6 +189,17 @@ impl Scene {
     pub fn balanced_gravity(&self) -> DVec2 {
         let closed = self.constants.period.map(|length| f64::from(u8::from(length == 0.0)));
         closed * self.constants.gravity
+    }
+
+    /// What an error in density weighs in the source of the pressure, `relaxation rho / dt^2`, Pa/m^2; `dt` in s.
+    pub fn stiffness(&self, dt: f64) -> f64 {
+        self.constants.relaxation * self.constants.density / (dt * dt)
+    }
+
+    /// Distance below which points that approach each other bounce, m.
+    pub fn bounce_distance(&self) -> f64 {
+        let spacings = if self.plan.mirrors() { collide::SHIFTED_DISTANCE } else { collide::DISTANCE };
+        spacings * self.constants.spacing
     }
 
     /// Lengths in time of a step of `dt` s.

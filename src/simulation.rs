@@ -11,6 +11,7 @@ use crate::case::LONGEST_FORWARD;
 use crate::case::Splitting;
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
 use crate::known::Known;
+use crate::motion;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
@@ -41,6 +42,10 @@ pub struct Diagnostics {
 pub trait Observer {
     /// A row of diagnostics is ready.
     fn report(&mut self, row: &Diagnostics);
+    /// A row about points that move is ready.
+    fn moved(&mut self, _: &motion::Row) {}
+    /// A frame of points that move is to be kept.
+    fn frame(&mut self, _: &Snapshot) {}
     /// True once the run is to stop after the steps it is in.
     fn stop_requested(&self) -> bool;
 }
@@ -63,6 +68,8 @@ pub enum Stop {
     End,
     /// The observer asked.
     Interrupted,
+    /// Points that move: the motion is no longer one of the fluid.
+    Diverged { reason: String, step: u64 },
     /// A field turned non-finite in the steps that ended with this one.
     NonFinite { field: NonFinite, place: DVec2, step: u64 },
 }
@@ -109,6 +116,10 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
     })
 }
 
+/// Most steps of points that move between two looks at their speed.
+const MOVING_STRETCH: u32 = 10;
+/// `nu dt / l0^2` of points that move.
+const MOVING_DIFFUSION: f64 = 0.1;
 /// Longest stretch of steps between two looks at the observer.
 const STRETCH: Duration = Duration::from_millis(250);
 /// Share of the viscous stability limit that a step uses.
@@ -122,7 +133,8 @@ pub fn simulate(
     engine: &mut dyn Engine,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SimulationError> {
-    Run { scene, engine, observer, limit: f64::INFINITY, warnings: Vec::new() }.run()
+    let (limit, warnings, watch) = (f64::INFINITY, Vec::new(), Watch::new(scene));
+    Run { scene, engine, observer, limit, warnings, watch }.run()
 }
 
 struct Run<'a> {
@@ -132,6 +144,7 @@ struct Run<'a> {
     /// Largest stable step of the viscous term, s.
     limit: f64,
     warnings: Vec<String>,
+    watch: Watch,
 }
 
 impl Run<'_> {
@@ -156,21 +169,36 @@ impl Run<'_> {
         let mut dt = self.step(fastest(&begun), 0.0)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
+        let every = self.scene.case.output.frame_every.unwrap_or(f64::INFINITY);
+        let mut frame = every;
+        if self.scene.plan.moves() {
+            let (snapshot, moved) = self.moved(0, 0.0)?;
+            self.watch.judge(&moved);
+            self.observer.moved(&moved);
+            if every.is_finite() {
+                self.observer.frame(&snapshot);
+            }
+        }
         let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
         let (mut fallbacks, mut iterations) = (0, 0);
         let stop = loop {
             if now >= time.end * (1.0 - 1e-12) {
                 break Stop::End;
             }
-            let asked = self.scene.case.output.report_every;
-            let left = steps_in(time.end - now, dt);
+            let moves = self.scene.plan.moves();
+            let asked = self.scene.case.output.report_every.min(if moves { MOVING_STRETCH } else { u32::MAX });
+            let left = steps_in(time.end.min(frame) - now, dt);
             let (row_start, mut done) = (now, 0_u32);
             let mut trouble = None;
             let count = (f64::from(asked)).min(left) as u32;
             let interrupted = loop {
                 let clock = self.scene.clock(dt);
                 let some = stretch(count - done, started.elapsed(), step);
-                let advance = self.engine.advance(some, &clock)?;
+                let advance = match self.engine.advance(some, &clock) {
+                    // Points that move may cluster: the run ends, and what was good is kept.
+                    Err(error @ EngineError::NeighbourOverflow { .. }) if moves => break Err(error.to_string()),
+                    result => result?,
+                };
                 done += advance.steps;
                 step += u64::from(advance.steps);
                 // Not step by step: the time must not depend on how long the stretches were.
@@ -179,19 +207,23 @@ impl Run<'_> {
                 fallbacks += u64::from(advance.fallbacks);
                 if let Some(field) = advance.trouble {
                     trouble = Some(field);
-                    break false;
+                    break Ok(false);
                 }
                 if done >= count {
-                    break false;
+                    break Ok(false);
                 }
                 if self.observer.stop_requested() {
-                    break true;
+                    break Ok(true);
                 }
             };
             if let Some(field) = trouble {
                 let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
                 break Stop::NonFinite { field, place, step };
             }
+            let interrupted = match interrupted {
+                Ok(interrupted) => interrupted,
+                Err(reason) => break Stop::Diverged { reason, step },
+            };
             let measured = self.engine.measure(now - row_start)?;
             let solve = self.engine.solve_info();
             let row = Diagnostics {
@@ -205,8 +237,22 @@ impl Run<'_> {
                 residual: solve.last_residual * dt * self.scene.clock(dt).kick / self.scene.constants.density,
                 change: measured.change,
             };
-            self.observer.report(&row);
-            good = self.snapshot(now)?;
+            if moves {
+                let (snapshot, moved) = self.moved(step, now)?;
+                if let Some(reason) = self.watch.judge(&moved) {
+                    break Stop::Diverged { reason, step };
+                }
+                good = snapshot;
+                self.observer.report(&row);
+                self.observer.moved(&moved);
+                if now >= frame * (1.0 - 1e-12) {
+                    self.observer.frame(&good);
+                    frame += every;
+                }
+            } else {
+                self.observer.report(&row);
+                good = self.snapshot(now)?;
+            }
             if interrupted || self.observer.stop_requested() {
                 break Stop::Interrupted;
             }
@@ -281,10 +327,28 @@ impl Run<'_> {
         let forward = self.scene.plan.drift.contains(&Operation::RemapForward);
         let longest = time.step.unwrap_or_else(|| {
             let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
-            let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
+            // Points that move fall on until the next look at their speed.
+            let falls = if self.scene.plan.moves() {
+                self.scene.constants.gravity.length() * f64::from(MOVING_STRETCH)
+            } else {
+                0.0
+            };
+            let by_motion = match moves {
+                true => {
+                    2.0 * time.courant * spacing
+                        / (speed + (speed * speed + 4.0 * falls * time.courant * spacing).sqrt())
+                }
+                false => f64::INFINITY,
+            };
             by_motion.min(self.by_fall()).min(self.limit)
         });
-        let left = time.end - now;
+        let until = match self.scene.case.output.frame_every {
+            Some(every) if self.scene.plan.moves() => {
+                time.end.min(every * ((now / every * (1.0 + 1e-9)).floor() + 1.0))
+            }
+            _ => time.end,
+        };
+        let left = until - now;
         if left <= 0.0 {
             return Ok(longest);
         }
@@ -304,6 +368,10 @@ impl Run<'_> {
     fn by_fall(&self) -> f64 {
         let (gravity, spacing) = (self.scene.constants.gravity.length(), self.scene.constants.spacing);
         match self.scene.case.effects.advection {
+            // Beside the surface a point's fall and the pressure's answer follow each other as in the shortest wave.
+            Some(_) if gravity > 0.0 && self.scene.plan.moves() => {
+                self.scene.case.time.courant * (spacing / gravity).sqrt()
+            }
             Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
             _ => f64::INFINITY,
         }
@@ -352,8 +420,10 @@ impl Run<'_> {
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
     /// scattered points no formula knows it. Euler's step and the midpoint rule are stable up to `dt nu |lambda| = 2`.
     fn viscous_limit(&mut self) -> Result<f64, EngineError> {
-        if self.scene.case.effects.viscosity.is_none() {
-            return Ok(f64::INFINITY);
+        let Some(viscosity) = &self.scene.case.effects.viscosity else { return Ok(f64::INFINITY) };
+        if self.scene.plan.moves() {
+            // The arrangement changes: the bound of a lattice, with room.
+            return Ok(MOVING_DIFFUSION * self.scene.constants.spacing.powi(2) / viscosity.kinematic);
         }
         let field = Buffer::Velocity;
         let interior = self.scene.sizes.interior;
@@ -396,9 +466,39 @@ impl Run<'_> {
         Ok(tally)
     }
 
+    /// The state of points that move, and what is measured of it.
+    fn moved(&mut self, step: u64, time: f64) -> Result<(Snapshot, motion::Row), EngineError> {
+        let snapshot = self.snapshot(time)?;
+        let pressured = self.scene.sizes.pressured;
+        let mut index = |buffer: Buffer| match self.engine.read(buffer) {
+            Ok(Data::Index(values)) => Ok(values[..snapshot.position.len()].to_vec()),
+            Ok(Data::Real(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
+            Err(error) => Err(error),
+        };
+        let (surface, rung) = (index(Buffer::Surface)?, index(Buffer::Rung(Points::Standing))?);
+        let mut places = snapshot.position.clone();
+        places.extend_from_slice(&self.scene.cloud.position[places.len()..pressured]);
+        let pressure = match self.engine.read(Buffer::Pressure)? {
+            Data::Real(values) => values[..pressured].to_vec(),
+            Data::Index(_) => Vec::new(),
+        };
+        let state = motion::State {
+            position: &snapshot.position,
+            velocity: &snapshot.velocity,
+            pressure: &pressure,
+            pressured: &places,
+            surface: &surface,
+            rung: &rung,
+        };
+        let row = motion::measure(self.scene, &state, step, time, &mut self.watch.area);
+        Ok((snapshot, row))
+    }
+
     /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
     fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
-        let points = self.scene.sizes.points;
+        // Of points that move the fluid's alone: walls of points stand where they stood.
+        let moves = self.scene.plan.moves();
+        let points = if moves { self.scene.sizes.interior } else { self.scene.sizes.points };
         let mut velocity = vec![DVec2::ZERO; points];
         if self.scene.plan.flows
             && let Data::Real(values) = self.engine.read(Buffer::Projected)?
@@ -409,10 +509,14 @@ impl Run<'_> {
         if self.scene.plan.form.is_some()
             && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
         {
-            let mean = values[..points].iter().sum::<f64>() / points as f64;
+            let mean = if moves { 0.0 } else { values[..points].iter().sum::<f64>() / points as f64 };
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
+        let mut position = self.scene.cloud.position.clone();
+        if moves && let Data::Real(values) = self.engine.read(Buffer::Position(Points::Standing))? {
+            position = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
+        }
+        Ok(Snapshot { time, position, velocity, pressure, derivatives: None })
     }
 }
 
@@ -433,4 +537,39 @@ fn stretch(left: u32, elapsed: Duration, steps: u64) -> u32 {
     }
     let pace = elapsed.as_secs_f64() / steps as f64;
     (STRETCH.as_secs_f64() / pace.max(1e-9)).clamp(1.0, f64::from(left)) as u32
+}
+
+/// Watches points that move for a motion that is no longer one of the fluid.
+struct Watch {
+    /// Area that the fluid covered at the start, m^2; 0 before.
+    area: f64,
+    /// Energy at the start above that of all fluid on the floor, m^4/s^2.
+    start: Option<f64>,
+    /// Potential energy of all fluid on the floor, m^4/s^2.
+    floor: f64,
+}
+
+/// Part by which the energy of a motion may exceed that at its start.
+const ENERGY_GROWTH: f64 = 0.05;
+/// Distance below which two points are one, in spacings.
+const CLUMPED: f64 = 0.01;
+
+impl Watch {
+    fn new(scene: &Scene) -> Self {
+        let (gravity, size) = (scene.constants.gravity, scene.constants.size);
+        let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
+        let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
+        Self { area: 0.0, start: None, floor }
+    }
+
+    /// What is wrong, if something is.
+    fn judge(&mut self, row: &motion::Row) -> Option<String> {
+        let energy = row.kinetic_energy + row.potential_energy - self.floor;
+        let start = *self.start.get_or_insert(energy);
+        if row.nearest[0] < CLUMPED {
+            return Some(format!("two points are {:.1e} spacings apart", row.nearest[0]));
+        }
+        (energy > (1.0 + ENERGY_GROWTH) * start)
+            .then(|| format!("the energy has grown to {:.2} times that at the start", energy / start))
+    }
 }

@@ -1,6 +1,8 @@
 //! What holds where a case leaves a key open and the answer depends on another key.
 
-use super::{Arrangement, Case, Cloud, Divergence, Gradient, Method, Operators, Pressure, PressureForm, Solver};
+use super::{
+    Arrangement, Case, Cloud, Divergence, Gradient, Method, Motion, Operators, Pressure, PressureForm, Solver,
+};
 
 /// Largest displacement of a jittered point along each axis, in spacings.
 pub const DEFAULT_JITTER: f64 = 0.4;
@@ -45,6 +47,11 @@ impl Method {
 }
 
 impl Pressure {
+    /// The form of the equation.
+    pub fn form(&self) -> PressureForm {
+        self.form.unwrap_or(PressureForm::Conservative)
+    }
+
     /// The flux through the faces of the conservative form.
     pub fn divergence(&self) -> Divergence {
         self.divergence.unwrap_or(Divergence::Faces)
@@ -57,8 +64,8 @@ impl Pressure {
 
     /// The solver, by default the cheapest iterative one that applies to the form.
     pub fn solver(&self) -> Solver {
-        self.solver.unwrap_or(match self.form {
-            PressureForm::Conservative => Solver::ConjugateGradient,
+        self.solver.unwrap_or(match self.form() {
+            PressureForm::Conservative | PressureForm::Integral => Solver::ConjugateGradient,
             PressureForm::Collocated => Solver::Bicgstab,
         })
     }
@@ -69,7 +76,22 @@ const DEFAULT_TOLERANCE: f64 = 1e-6;
 /// Beyond so many spacings the default falls with the square of the spacing, as the step's square does.
 const COARSE: f64 = 64.0;
 
+/// Share of an error in density that a step takes out: of MPS, whose source is nothing else, and of shifted points, whose
+/// source is the divergence.
+const INTEGRAL_RELAXATION: f64 = 0.05;
+const SHIFTED_RELAXATION: f64 = 0.01;
+
 impl Case {
+    /// Share of an error in density that a step takes out; 0 for the paper's interpolation form.
+    pub fn relaxation(&self) -> f64 {
+        let default = match (self.motion(), self.method.operators) {
+            (Motion::Shifted, _) => SHIFTED_RELAXATION,
+            (Motion::Lagrangian, Operators::Integral) => INTEGRAL_RELAXATION,
+            _ => 0.0,
+        };
+        self.effects.pressure.as_ref().and_then(|pressure| pressure.relaxation).unwrap_or(default)
+    }
+
     /// Volume change, `|div u| dt` (rms over the points), at which a pressure solve is done.
     pub fn tolerance(&self) -> f64 {
         let spacings = self.domain.width.min(self.domain.height) / self.cloud.spacing;
@@ -94,7 +116,7 @@ impl Case {
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.tolerance = Some(tolerance);
             pressure.solver = Some(pressure.solver());
-            if pressure.form == PressureForm::Conservative {
+            if pressure.form() == PressureForm::Conservative {
                 pressure.divergence = Some(pressure.divergence());
                 pressure.gradient = Some(pressure.gradient());
             }

@@ -53,6 +53,7 @@ impl Case {
     fn from_document(document: &Document, path: &Path) -> Result<Case, CaseError> {
         let explain = |fault| explain(fault, document, &CASE_FILE);
         let mut case = decode::<Case>(document.root()).map_err(explain)?;
+        case.settle_form();
         check(&case).map_err(explain)?;
         case.settle_defaults();
         case.settle_profiles(path.parent().unwrap_or(Path::new("")));

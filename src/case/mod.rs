@@ -11,12 +11,14 @@ pub(crate) mod error;
 pub(crate) mod fault;
 pub(crate) mod keys;
 pub(crate) mod load;
+mod moving;
 mod reference;
 pub(crate) mod text;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
+pub use moving::{Fill, Initial, Motion, Sensor, Wave};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
 
@@ -37,6 +39,8 @@ pub struct Case {
     pub fluid: Fluid,
     #[serde(default)]
     pub boundaries: Boundaries,
+    #[serde(default)]
+    pub initial: Initial,
     #[serde(default)]
     pub method: Method,
     /// The physics of the scene: an effect whose table is absent adds no operation and no buffer.
@@ -106,6 +110,8 @@ pub struct Cloud {
     pub minimum_distance: Option<f64>,
     /// `jittered` and `random`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
     pub seed: Option<u64>,
+    /// Points that move alone: the part of the domain that holds fluid at the start.
+    pub fill: Option<Fill>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -205,7 +211,8 @@ pub struct Viscosity {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Pressure {
-    pub form: PressureForm,
+    /// `conservative` on points that stand; on points that move `collocated` with fits, `integral` with weighted means.
+    pub form: Option<PressureForm>,
     /// `conservative` alone; `faces` where absent.
     pub divergence: Option<Divergence>,
     /// `conservative` alone; `fit` where absent.
@@ -215,17 +222,20 @@ pub struct Pressure {
     /// Volume change left in a step, `|div u| dt` (rms over the points); the solver stops there.
     pub tolerance: Option<f64>,
     pub max_iterations: u32,
+    /// Points that move: the share of an error in density that a step takes out.
+    pub relaxation: Option<f64>,
 }
 
 impl Default for Pressure {
     fn default() -> Self {
         Self {
-            form: PressureForm::Conservative,
+            form: None,
             divergence: None,
             gradient: None,
             solver: None,
             tolerance: None,
             max_iterations: 2000,
+            relaxation: None,
         }
     }
 }
@@ -237,6 +247,8 @@ pub enum PressureForm {
     Conservative,
     /// The paper's: the fitted Laplacian inside, the fitted normal derivative at walls; not symmetric.
     Collocated,
+    /// MPS's: the Laplacian of weighted means, the source from the number density; symmetric.
+    Integral,
 }
 
 /// How the volume flux through the faces of the cells is formed.
@@ -275,6 +287,8 @@ pub enum Solver {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Advection {
+    pub motion: Motion,
+    /// `fixed` alone.
     pub remap: Remap,
 }
 
@@ -395,11 +409,15 @@ pub struct Output {
     pub report_every: u32,
     /// Draw the pictures: pressure.png, speed.png and centreline.png of a flow.
     pub pictures: bool,
+    /// Points that move: time between two frames that are kept, s.
+    pub frame_every: Option<f64>,
+    /// Points that move: places where the pressure is recorded, by name.
+    pub sensors: BTreeMap<String, Sensor>,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { report_every: 50, pictures: true }
+        Self { report_every: 50, pictures: true, frame_every: None, sensors: BTreeMap::new() }
     }
 }
 

@@ -23,6 +23,15 @@ pub(super) fn interior(cloud: &Cloud, lattice: &Lattice, boundary: &[DVec2]) -> 
     }
 }
 
+/// Displaces the places that `may` move, as jittered points are.
+pub(super) fn jitter(cloud: &Cloud, position: &mut [DVec2], may: impl Fn(DVec2) -> bool) {
+    let mut random = Uniform(Xoshiro256PlusPlus::seed_from_u64(cloud.seed()));
+    let reach = cloud.jitter() * cloud.spacing;
+    for place in position.iter_mut().filter(|place| may(**place)) {
+        *place += reach * random.in_square();
+    }
+}
+
 fn places(lattice: &Lattice) -> impl Iterator<Item = DVec2> {
     lattice.inner(1).flat_map(move |j| lattice.inner(0).map(move |i| lattice.place(i, j)))
 }

@@ -1,6 +1,7 @@
 //! Where the points are: a rectangle filled with points, on its walls and inside.
 
 mod arrangement;
+mod fill;
 pub mod flux;
 pub mod grid;
 mod period;
@@ -22,6 +23,10 @@ pub struct Cloud {
     pub position: Vec<DVec2>,
     /// Number of interior points: `position[..interior]`.
     pub interior: usize,
+    /// Number of points that have a pressure, `position[..pressured]`: all but those behind the walls of MPS.
+    pub pressured: usize,
+    /// The volume of an interior point where the fluid fills a part of the rectangle alone, m^2.
+    pub filled: Option<f64>,
     /// Outward unit normals of the boundary points, `position[interior..]`; at a corner, of the mean of its two sides.
     pub normal: Vec<DVec2>,
     /// The sides of the rectangle that each boundary point lies on: one, or two at a corner.
@@ -54,6 +59,9 @@ impl Cloud {
         let size = DVec2::new(case.domain.width, case.domain.height);
         let cells = wall::cells(size, case.cloud.spacing);
         let period = case.domain.period();
+        if let Some(fill) = &case.cloud.fill {
+            return Ok(fill::build(case, fill));
+        }
         let lattice = wall::Lattice { size, cells, periodic: case.domain.periodic.each() };
         let (boundary, sides) = wall::points(&lattice);
         let mut position = arrangement::interior(&case.cloud, &lattice, &boundary)?;
@@ -61,8 +69,17 @@ impl Cloud {
         let interior = position.len();
         position.extend(boundary);
         let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
-        let cloud =
-            Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size, period };
+        let cloud = Self {
+            interior,
+            normal: normal.collect(),
+            pressured: position.len(),
+            filled: None,
+            position,
+            sides,
+            spacing: case.cloud.spacing,
+            size,
+            period,
+        };
         Ok(cloud)
     }
 
@@ -78,6 +95,10 @@ impl Cloud {
     /// The volume that each point stands for where no cells are built, m^2: `l0^2` inside, half on a side, a quarter
     /// at a corner. It sums to the area of the rectangle.
     pub fn nominal_volume(&self) -> Vec<f64> {
+        if let Some(volume) = self.filled {
+            let others = std::iter::repeat_n(0.0, self.len() - self.interior);
+            return std::iter::repeat_n(volume, self.interior).chain(others).collect();
+        }
         let [nx, ny] = wall::cells(self.size, self.spacing);
         let cell = self.size.x * self.size.y / (nx * ny) as f64;
         let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len()));

@@ -93,6 +93,27 @@ pub fn for_each_3<R: Send, S: Send, Q: Send>(
     }
 }
 
+type Body4<'a, R, S> = dyn Fn(usize, &mut [R], &mut [S], &mut [S], &mut [S]) + Sync + 'a;
+
+/// The same for four arrays at once, the last three of the same kind.
+pub fn for_each_4<R: Send, S: Send>(
+    (first, slots): (&mut [R], usize),
+    [(second, others), (third, more), (fourth, most)]: [(&mut [S], usize); 3],
+    body: &Body4<'_, R, S>,
+) {
+    let serial = first.len() < SERIAL_BELOW * slots;
+    if serial {
+        let pairs = first.chunks_mut(slots * BLOCK).zip(second.chunks_mut(others * BLOCK));
+        let more = third.chunks_mut(more * BLOCK).zip(fourth.chunks_mut(most * BLOCK));
+        pairs.zip(more).enumerate().for_each(|(block, ((a, b), (c, d)))| body(block, a, b, c, d));
+    } else {
+        let pairs = first.par_chunks_mut(slots * BLOCK).zip(second.par_chunks_mut(others * BLOCK));
+        let more = third.par_chunks_mut(more * BLOCK).zip(fourth.par_chunks_mut(most * BLOCK));
+        let all = pairs.zip(more).with_min_len(BLOCKS_A_TASK);
+        all.enumerate().for_each(|(block, ((a, b), (c, d)))| body(block, a, b, c, d));
+    }
+}
+
 /// Runs `body(first point, values)` over chunks of per-point arrays and adds up what it returns. The chunks are the
 /// same on any number of threads, and their sums are added in order: same bits.
 pub fn sum_over<R: Send, const N: usize, const M: usize>(

@@ -160,8 +160,16 @@ pub(super) fn declare(bindings: &[Binding]) -> String {
 
 /// x and y of a point side by side.
 fn interleaved(buffer: Buffer) -> bool {
-    let none =
-        Sizes { points: 0, interior: 0, capacity: 0, face_capacity: 0, flux_capacity: 0, cells: 0, coefficients: 0 };
+    let none = Sizes {
+        points: 0,
+        interior: 0,
+        pressured: 0,
+        capacity: 0,
+        face_capacity: 0,
+        flux_capacity: 0,
+        cells: 0,
+        coefficients: 0,
+    };
     buffer.per_point(&none) == Some(2)
 }
 

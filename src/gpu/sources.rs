@@ -132,6 +132,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
         Operation::HoldWalls => once(stage!("hold_walls", Points)),
         Operation::Reflect => once(stage!("reflect", Points)),
+        _ => Stages::Once(vec![]),
     }
 }
 

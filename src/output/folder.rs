@@ -77,6 +77,16 @@ impl RunFolder {
         self.path.join("diagnostics.csv")
     }
 
+    /// Of points that move: a row a report.
+    pub fn motion(&self) -> PathBuf {
+        self.path.join("motion.csv")
+    }
+
+    /// Of points that move: the folder of the frames.
+    pub fn frames(&self) -> PathBuf {
+        self.path.join("frames")
+    }
+
     pub fn summary(&self) -> PathBuf {
         self.path.join("summary.json")
     }

@@ -92,6 +92,12 @@ pub enum Buffer {
     Preconditioned,
     /// `Projected` at the last report, m/s, to measure the rate of change from; interleaved.
     Reported,
+    /// Number density over that of a full lattice, no unit. Points that move alone, as the two below.
+    Crowding,
+    /// 1 at free-surface points, 0 elsewhere.
+    Surface,
+    /// How far each point moves beside `dt u*`, m; interleaved.
+    Displacement,
     /// A known field, no unit.
     Field,
     /// Its mean over neighbours, no unit; its gradient, 1/m, interleaved; its Laplacian, 1/m^2.
@@ -151,6 +157,9 @@ impl Buffer {
             Buffer::StabilisedProduct => ("stabilised_product", None),
             Buffer::Preconditioned => ("preconditioned", None),
             Buffer::Reported => ("reported", None),
+            Buffer::Crowding => ("crowding", None),
+            Buffer::Surface => ("surface", None),
+            Buffer::Displacement => ("displacement", None),
             Buffer::Field => ("field", None),
             Buffer::FieldAverage => ("field_average", None),
             Buffer::FieldGradient => ("field_gradient", None),
@@ -172,7 +181,8 @@ impl Buffer {
             | Buffer::FaceNeighbours
             | Buffer::FaceCount
             | Buffer::FluxPoints
-            | Buffer::FluxCount => Element::Index,
+            | Buffer::FluxCount
+            | Buffer::Surface => Element::Index,
             _ => Element::Real,
         }
     }
@@ -189,6 +199,7 @@ impl Buffer {
             | Buffer::Reflected
             | Buffer::PressureKick
             | Buffer::Reported
+            | Buffer::Displacement
             | Buffer::FieldGradient => 2,
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,

@@ -89,6 +89,33 @@ pub enum Operation {
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
 
+    /// Points that move: moves the fluid's by `dt u*`.
+    AdvancePoints,
+    /// Forms and factorises the normal matrices, walls as mirrors; weak ones are lowered to a linear fit or to none.
+    FactoriseMirrored,
+    /// Fits the velocity under the forces alone, walls as mirrors of all of it but gravity's part.
+    FitPredicted,
+    /// Fits the velocity, walls as mirrors.
+    FitMirrored,
+    /// Adds `dt nu lap u` of these fits to the kick.
+    FittedViscosity,
+    /// Number density, and which points are the free surface.
+    FindSurface,
+    /// Rows and source of the pressure equation by fits, `p = 0` at the free surface; (2.6) and (3.2).
+    AssembleMirrored,
+    /// Rows and source of the pressure equation by weighted means, `p = 0` at the free surface; (2.4) and (3.1).
+    AssembleDensity,
+    /// `u = u* - (dt / rho) grad p` with the fitted gradient, walls as mirrors; the points follow.
+    CorrectMirrored,
+    /// The same with weighted means and the least pressure around each point (MPS).
+    CorrectByLeast,
+    /// Moves points apart that are closer than others, and carries the fields there.
+    ShiftPoints,
+    /// Moves the fluid's points by what is left of their way.
+    DisplacePoints,
+    /// Points that have come too close and approach each other bounce.
+    Collide,
+
     /// The weighted mean of a known field over neighbours, (2.2).
     Average,
     /// The gradient of a known field.
@@ -131,6 +158,19 @@ impl Operation {
             Operation::CorrectByAdjoint => "correct_by_adjoint",
             Operation::HoldWalls => "hold_walls",
             Operation::Reflect => "reflect",
+            Operation::AdvancePoints => "advance_points",
+            Operation::FactoriseMirrored => "factorise_mirrored",
+            Operation::FitPredicted => "fit_predicted",
+            Operation::FitMirrored => "fit_mirrored",
+            Operation::FittedViscosity => "fitted_viscosity",
+            Operation::FindSurface => "find_surface",
+            Operation::AssembleMirrored => "assemble_mirrored",
+            Operation::AssembleDensity => "assemble_density",
+            Operation::CorrectMirrored => "correct_mirrored",
+            Operation::CorrectByLeast => "correct_by_least",
+            Operation::ShiftPoints => "shift_points",
+            Operation::DisplacePoints => "displace_points",
+            Operation::Collide => "collide",
             Operation::Average => "average",
             Operation::Gradient => "gradient",
             Operation::Laplacian => "laplacian",
@@ -154,6 +194,8 @@ impl Operation {
             NeighbourCount(Points::Standing),
         ];
         let sums = |row| vec![Neighbours(Points::Standing), NeighbourCount(Points::Standing), row];
+        let around = vec![Position(Points::Standing), Neighbours(Points::Standing), NeighbourCount(Points::Standing)];
+        let sums_of_lists = vec![Neighbours(Points::Standing), NeighbourCount(Points::Standing)];
         let faces = [FaceNeighbours, FaceWeight, FaceCount];
         let standing = Points::Standing;
         match self {
@@ -185,12 +227,25 @@ impl Operation {
             // The source is there already: a sum, as the kick of a force is.
             Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
-            Operation::ConjugateGradient => with(faces.to_vec(), &[Diagonal, Volume, Source]),
-            Operation::Bicgstab | Operation::DirectSolve => with(plan.matrix(), &[Diagonal, Volume, Source]),
+            Operation::ConjugateGradient | Operation::Bicgstab | Operation::DirectSolve => {
+                with(plan.matrix(), &[Diagonal, Volume, Source])
+            }
             Operation::CorrectByFit => with(sums(GradientRow), &[Pressure]),
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
             Operation::Reflect => vec![Velocity, Projected, Kick],
+            Operation::AdvancePoints => vec![],
+            Operation::FindSurface => around,
+            Operation::FactoriseMirrored => with(around, &[Surface]),
+            Operation::FitPredicted | Operation::FitMirrored => with(around, &[Factor(standing), Projected]),
+            Operation::FittedViscosity => vec![Coefficients],
+            Operation::AssembleMirrored => with(around, &[Factor(standing), Crowding, Surface, Coefficients]),
+            Operation::AssembleDensity => with(around, &[Crowding, Surface]),
+            Operation::CorrectMirrored => with(around, &[Factor(standing), Surface]),
+            Operation::CorrectByLeast => around,
+            Operation::ShiftPoints => with(around, &[Surface, Coefficients]),
+            Operation::DisplacePoints => vec![Displacement],
+            Operation::Collide => sums_of_lists,
             Operation::Average => with(means, &[Field]),
             Operation::Gradient => with(sums(GradientRow), &[Field]),
             Operation::Laplacian => with(sums(LaplacianRow), &[Field]),
@@ -228,6 +283,16 @@ impl Operation {
             }
             Operation::DirectSolve => vec![Pressure],
             Operation::Reflect => vec![PressureKick, Reflected],
+            Operation::AdvancePoints => vec![Position(Points::Standing), Projected],
+            Operation::FactoriseMirrored => vec![Factor(Points::Standing), Rung(Points::Standing)],
+            Operation::FitPredicted | Operation::FitMirrored => vec![Coefficients],
+            Operation::FittedViscosity => vec![Kick],
+            Operation::FindSurface => vec![Crowding, Surface],
+            Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source, Pressure],
+            Operation::ShiftPoints => vec![Projected, Displacement],
+            Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Pressure, Projected, Displacement],
+            Operation::DisplacePoints => vec![Position(Points::Standing), Projected],
+            Operation::Collide => vec![Position(Points::Standing), Projected, Kick],
             Operation::Average => vec![FieldAverage],
             Operation::Gradient => vec![FieldGradient],
             Operation::Laplacian => vec![FieldLaplacian],

@@ -3,13 +3,15 @@
 use serde::Serialize;
 
 use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{self, Axes, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
+use crate::case::{self, Axes, Case, Motion, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Sizes {
     pub points: usize,
     pub interior: usize,
+    /// Points that have a pressure: all but those behind the walls of MPS.
+    pub pressured: usize,
     /// Most neighbours that a point's list holds.
     pub capacity: usize,
     /// Most faces that a cell has.
@@ -38,6 +40,8 @@ pub struct Plan {
     pub through_flow: bool,
     /// True of a flow in time; else `kick` is all there is to do, once.
     pub flows: bool,
+    /// What becomes of the points that the flow has moved.
+    pub motion: Motion,
 }
 
 fn solve_by(solver: Solver) -> Operation {
@@ -78,6 +82,7 @@ impl Rows {
 impl Plan {
     pub fn new(case: &Case) -> Self {
         match case.problem() {
+            Problem::Flow if case.moves() => Self::of_moving(case),
             Problem::Flow => Self::of_flow(case),
             Problem::Derivatives(_) => Self::of_derivatives(case),
             Problem::Poisson(_) => Self::of_poisson(case),
@@ -104,6 +109,7 @@ impl Plan {
             splitting: Splitting::Projection,
             through_flow: false,
             flows: false,
+            motion: Motion::Fixed,
         }
     }
 
@@ -111,7 +117,7 @@ impl Plan {
     fn of_poisson(case: &Case) -> Self {
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let mut setup = Vec::new();
-        if pressure.form == PressureForm::Collocated {
+        if pressure.form() == PressureForm::Collocated {
             setup = Rows { operators: Operators::Interpolation, laplacian: true, gradient: true }.setup(false);
             setup.push(Operation::AssembleCollocated);
         }
@@ -120,11 +126,83 @@ impl Plan {
             setup,
             drift: Vec::new(),
             kick,
-            form: Some(pressure.form),
+            form: Some(pressure.form()),
             splitting: Splitting::Projection,
             through_flow: false,
             flows: false,
+            motion: Motion::Fixed,
         }
+    }
+
+    /// A flow whose points stay where they have moved to, or near there: everything that depends on their places is made
+    /// anew in every step.
+    fn of_moving(case: &Case) -> Self {
+        use Operation::*;
+        let effects = &case.effects;
+        let (motion, standing) = (case.motion(), Points::Standing);
+        let integral = case.method.operators == Operators::Integral;
+        let pressure = effects.pressure.clone().unwrap_or_default();
+        let (mut setup, mut drift, mut kick) = (Vec::new(), vec![KeepVelocity, ClearKick], Vec::new());
+        let search = [BuildCells(standing), FindNeighbours(standing)];
+        if let Some(_) = &effects.viscosity {
+            setup.extend(search);
+            match integral {
+                true => setup.push(AssembleIntegralLaplacian),
+                false => setup.extend([FindSurface, FactoriseMirrored, FitMirrored]),
+            }
+            drift.push(if integral { Viscosity(Stage::Start) } else { FittedViscosity });
+        }
+        if effects.gravity.is_some() {
+            drift.push(Gravity);
+        }
+        drift.extend([Predict, AdvancePoints]);
+        drift.extend(search);
+        // The paper's interpolation form has nothing to hold points apart.
+        if integral || motion == Motion::Shifted {
+            drift.push(Collide);
+        }
+        kick.push(FindSurface);
+        if integral {
+            if effects.viscosity.is_some() {
+                kick.push(AssembleIntegralLaplacian);
+            }
+            kick.extend([AssembleDensity, solve_by(pressure.solver()), CorrectByLeast]);
+        } else {
+            kick.extend([
+                FactoriseMirrored,
+                FitPredicted,
+                AssembleMirrored,
+                solve_by(pressure.solver()),
+                CorrectMirrored,
+            ]);
+            if motion == Motion::Shifted || effects.viscosity.is_some() {
+                kick.push(FitMirrored);
+            }
+            if motion == Motion::Shifted {
+                kick.push(ShiftPoints);
+            }
+        }
+        kick.push(DisplacePoints);
+        Self {
+            setup,
+            drift,
+            kick,
+            form: Some(pressure.form()),
+            splitting: Splitting::Projection,
+            through_flow: false,
+            flows: true,
+            motion,
+        }
+    }
+
+    /// True where walls mirror the fluid; else they are made of points.
+    pub fn mirrors(&self) -> bool {
+        self.moves() && self.form == Some(PressureForm::Collocated)
+    }
+
+    /// True where the points stay where they have moved to.
+    pub fn moves(&self) -> bool {
+        self.motion != Motion::Fixed
     }
 
     fn of_flow(case: &Case) -> Self {
@@ -133,7 +211,7 @@ impl Plan {
         // Without a pressure there is nothing to reflect.
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
-        let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
+        let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form() == PressureForm::Collocated);
         let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
         let standing = Points::Standing;
         let fits_faces =
@@ -175,10 +253,10 @@ impl Plan {
         }
         kick.push(Predict);
         if let Some(pressure) = &effects.pressure {
-            kick.push(match pressure.form {
+            kick.push(match pressure.form() {
                 PressureForm::Conservative if fits_faces => DivergenceByFit,
                 PressureForm::Conservative => Divergence,
-                PressureForm::Collocated => {
+                PressureForm::Collocated | PressureForm::Integral => {
                     setup.push(AssembleCollocated);
                     CollocatedSource
                 }
@@ -202,10 +280,11 @@ impl Plan {
             setup,
             drift,
             kick,
-            form: effects.pressure.as_ref().map(|pressure| pressure.form),
+            form: effects.pressure.as_ref().map(|pressure| pressure.form()),
             splitting,
             through_flow,
             flows: true,
+            motion: Motion::Fixed,
         }
     }
 
@@ -228,7 +307,7 @@ impl Plan {
             Some(PressureForm::Conservative) => {
                 vec![Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount]
             }
-            Some(PressureForm::Collocated) => {
+            Some(PressureForm::Collocated | PressureForm::Integral) => {
                 let points = Points::Standing;
                 vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points), Buffer::MatrixRow]
             }

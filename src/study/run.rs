@@ -159,7 +159,7 @@ impl Trial {
             Stop::Interrupted => return Ok(None),
             Stop::Steady => End::Steady,
             Stop::End => End::Time,
-            Stop::NonFinite { .. } => End::Diverged { after: outcome.snapshot.time },
+            Stop::NonFinite { .. } | Stop::Diverged { .. } => End::Diverged { after: outcome.snapshot.time },
         };
         let measured = match end.is_good() {
             true => measure::evaluate(&self.case, &outcome.snapshot, &run::profiles(&self.case)?)?.into_iter().next(),

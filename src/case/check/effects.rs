@@ -14,7 +14,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         return check_problem(case);
     }
     if case.method.operators == Operators::Integral
-        && case.effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated)
+        && case.effects.pressure.as_ref().is_some_and(|pressure| pressure.form() == PressureForm::Collocated)
     {
         let reason = "must be \"interpolation\" with effects.pressure.form = \"collocated\", whose rows are fits";
         return Err(Fault::reason("method.operators", reason));
@@ -30,7 +30,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     }
     if let Some(pressure) = &case.effects.pressure {
         check_pressure(pressure)?;
-        if pressure.form == PressureForm::Collocated {
+        if pressure.form() == PressureForm::Collocated {
             second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
         }
     }
@@ -76,7 +76,7 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if pressure.gradient.is_some() {
         return stray("effects.pressure.gradient");
     }
-    if pressure.form == PressureForm::Collocated {
+    if pressure.form() == PressureForm::Collocated {
         second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
     }
     check_pressure(pressure)
@@ -96,7 +96,7 @@ fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
         "effects.pressure.tolerance",
     )?;
     require(pressure.max_iterations >= 1, "effects.pressure.max_iterations")?;
-    if pressure.form != PressureForm::Collocated {
+    if pressure.form() != PressureForm::Collocated {
         return check_pair(pressure);
     }
     if pressure.divergence.is_some() {

@@ -4,6 +4,7 @@ mod drift;
 mod field;
 mod geometry;
 mod kick;
+mod moving;
 mod pressure;
 mod views;
 
@@ -119,6 +120,19 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
             | Operation::Reflect => self.kick(operation, clock),
+            Operation::AdvancePoints
+            | Operation::FactoriseMirrored
+            | Operation::FitPredicted
+            | Operation::FitMirrored
+            | Operation::FittedViscosity
+            | Operation::FindSurface
+            | Operation::AssembleMirrored
+            | Operation::AssembleDensity
+            | Operation::CorrectMirrored
+            | Operation::CorrectByLeast
+            | Operation::ShiftPoints
+            | Operation::DisplacePoints
+            | Operation::Collide => self.moving(operation, clock),
             Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence
             | Operation::DivergenceByFit
@@ -181,6 +195,8 @@ impl<T: Real> Engine for CpuEngine<T> {
                 conservative::add_wall_flux(self.fields.real(Buffer::WallFlux)?, one, &mut flux);
             }
             measurement.divergence = measure::rms_density(&flux, self.fields.real(Buffer::Volume)?, points);
+        } else if scene.plan.moves() {
+            measurement.divergence = self.divergence_of_moving()?;
         } else {
             let mut divergence = vec![T::zero(); scene.padded()];
             let (order, standing, end) = (scene.constants.order, Points::Standing, scene.sizes.interior);

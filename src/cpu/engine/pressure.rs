@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
+use crate::case::PressureForm;
 use crate::cpu::operations::conservative::{self, Conservative};
+use crate::cpu::operations::moving::density::{self, Symmetric};
 use crate::cpu::operations::pressure::{self, Stop};
 use crate::cpu::operations::{bicgstab, collocated, conjugate_gradient};
 use crate::cpu::real::Real;
@@ -79,7 +81,13 @@ impl<T: Real> CpuEngine<T> {
     }
 
     pub(super) fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
-        Ok(collocated::Collocated { lists: self.lists(Points::Standing)?, row: self.fields.real(Buffer::MatrixRow)? })
+        let (lists, row) = (self.lists(Points::Standing)?, self.fields.real(Buffer::MatrixRow)?);
+        Ok(collocated::Collocated { lists, row, singular: !self.scene.plan.moves() })
+    }
+
+    pub(super) fn symmetric(&self) -> Result<Symmetric<'_, T>, EngineError> {
+        let (lists, row) = (self.lists(Points::Standing)?, self.fields.real(Buffer::MatrixRow)?);
+        Ok(Symmetric { lists, row, per_area: T::from_f64(density::per_area(self.scene.constants.lattice)) })
     }
 
     pub(super) fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
@@ -96,7 +104,13 @@ impl<T: Real> CpuEngine<T> {
                 let (diagonal, source) = (self.fields.real(Buffer::Diagonal)?, self.fields.real(Buffer::Source)?);
                 let (residual, direction, product) = (&mut residual[..], &mut direction[..], &mut product[..]);
                 let work = conjugate_gradient::Work { residual, direction, product };
-                conjugate_gradient::solve(&self.conservative()?, diagonal, points, source, stop, work, &mut pressure)
+                if self.scene.plan.form == Some(PressureForm::Integral) {
+                    let matrix = self.symmetric()?;
+                    conjugate_gradient::solve(&matrix, diagonal, points, source, stop, work, &mut pressure)
+                } else {
+                    let matrix = self.conservative()?;
+                    conjugate_gradient::solve(&matrix, diagonal, points, source, stop, work, &mut pressure)
+                }
             }
         ))
     }
@@ -143,7 +157,8 @@ impl<T: Real> CpuEngine<T> {
             self.solve.outcome = Outcome::BrokeDown;
             return Ok(());
         }
-        if self.direct.is_none() {
+        // The matrix of points that move is another one in every step.
+        if self.direct.is_none() || self.scene.plan.moves() {
             self.direct = Some(DirectSolver::new(&self.scene, &mut |buffer| self.fields.read(buffer))?);
         }
         let source = self.fields.read(Buffer::Source)?;
@@ -153,6 +168,9 @@ impl<T: Real> CpuEngine<T> {
             let (points, source) = (self.scene.sizes.points, self.fields.real(Buffer::Source)?);
             let pressure = self.fields.real(Buffer::Pressure)?;
             self.solve.last_residual = match self.scene.cells() {
+                None if self.scene.plan.form == Some(PressureForm::Integral) => {
+                    pressure::residual(&self.symmetric()?, points, source, pressure)
+                }
                 Some(_) => pressure::residual(&self.conservative()?, points, source, pressure),
                 None => pressure::residual(&self.collocated()?, points, source, pressure),
             };

@@ -42,7 +42,7 @@ pub fn solve<T: Real>(
             }
             [lanes::<T>(sum)]
         });
-        let mean = T::Pack::splat(T::from_f64(sum / points as f64));
+        let mean = T::Pack::splat(T::from_f64(if matrix.singular() { sum / points as f64 } else { 0.0 }));
         let [mut rz, square, scale] = blocks::sum_over([&mut *residual, &mut *direction], &|start, [r, d]| {
             let mut sums = [T::Pack::zero(); 3];
             for k in (0..r.len()).step_by(T::Pack::LANES) {

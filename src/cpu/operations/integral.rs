@@ -26,6 +26,14 @@ pub struct Lattice {
     pub spread: f64,
 }
 
+/// The sum of `weight(r / r_e, (r / r_e)^2)` over the neighbours of a point of the square lattice.
+pub fn lattice_sum(radius: f64, spacing: f64, weight: impl Fn(f64, f64) -> f64) -> f64 {
+    let reach = (radius / spacing).ceil() as i64;
+    let offsets = (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j)));
+    let distances = offsets.map(|(i, j)| spacing / radius * (i as f64).hypot(j as f64));
+    distances.filter(|&q| q > 0.0 && q < 1.0).map(|q| weight(q, q * q)).sum()
+}
+
 impl Lattice {
     /// Of points `spacing` apart and a neighbourhood of `radius`, both in m.
     pub fn new(radius: f64, spacing: f64) -> Self {

@@ -13,6 +13,7 @@ pub mod kick;
 pub mod lists;
 pub mod measure;
 pub mod moments;
+pub mod moving;
 pub mod neighbours;
 pub mod pressure;
 pub mod remap;

@@ -9,6 +9,11 @@ pub trait Rows<T: Real>: Sync {
     /// `(A p)_i` for the points `i..i + LANES`.
     fn product(&self, i: usize, p: &[T]) -> T::Pack;
 
+    /// True where the constants are the null space, and the right side must not have them in it.
+    fn singular(&self) -> bool {
+        true
+    }
+
     /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the
     /// diagonal times the solution, which is what rounding errors are measured against.
     fn measure(&self, i: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]);
@@ -113,7 +118,7 @@ pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, source: &[T], pre
         let packs = range.step_by(T::Pack::LANES);
         [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
     });
-    let mean = T::Pack::splat(T::from_f64(sum / points as f64));
+    let mean = T::Pack::splat(T::from_f64(if matrix.singular() { sum / points as f64 } else { 0.0 }));
     let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
         for i in range.step_by(T::Pack::LANES) {

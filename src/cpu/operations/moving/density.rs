@@ -1,0 +1,185 @@
+//! The pressure of MPS: the number density in place of the divergence, weighted means in place of fits.
+//!
+//! Continuous: `lap p = -(rho / dt^2) (n* - n0) / n0` (3.1), `p = 0` at the free surface. Discrete, multiplied by
+//! `lambda n0 / 2 D`: `sum_j w_ij (p_i - p_j) = relaxation (rho / dt^2) (lambda n0 / 2 D) (n*_i - n0) / n0`, symmetric; points
+//! behind the walls have no pressure and no part in it. Then `u' = u* - (dt / rho) (D / n0) sum_j (p_j - p_min) d / |d|^2 w`
+//! with the least pressure around each point, which keeps points from clumping.
+//! Source: Koshizuka and Oka, Nucl. Sci. Eng. 123 (1996) 421-434; the relaxed source: Tanaka and Masunaga, J. Comput. Phys. 229
+//! (2010) 4279-4290.
+
+use super::mirror::{Around, Stencil};
+use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::integral::{DIMENSIONS, Lattice};
+use crate::cpu::operations::lists::Lists;
+use crate::cpu::operations::pressure::Rows;
+use crate::cpu::real::{Pack, Real};
+
+/// The symmetric matrix: the factor of `p_i - p_j` for every neighbour slot, blocked.
+#[derive(Clone, Copy)]
+pub struct Symmetric<'a, T> {
+    pub lists: Lists<'a>,
+    pub row: &'a [T],
+    /// What a source of this matrix is multiplied by to be one of the pressure's Laplacian, 1/m^2.
+    pub per_area: T,
+}
+
+impl<T: Real> Rows<T> for Symmetric<'_, T> {
+    #[inline(always)]
+    fn product(&self, i: usize, p: &[T]) -> T::Pack {
+        let first = blocks::at(i, 0, self.lists.capacity);
+        let own = T::Pack::load(&p[i..]);
+        let mut sum = T::Pack::zero();
+        self.lists.for_each::<T>(i, |slot, index| {
+            // SAFETY: every stored neighbour is below the number of points.
+            let other = unsafe { T::Pack::gather(p, index) };
+            sum += T::Pack::load(&self.row[first + slot * BLOCK..]) * (own - other);
+        });
+        sum
+    }
+
+    fn singular(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn measure(&self, _: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
+        let scale = T::Pack::splat(self.per_area);
+        let (residual, size) = (residual * scale, size * scale);
+        sums[0] += residual * residual;
+        sums[1] += size * size;
+    }
+}
+
+/// `2 D / (lambda n0)`, 1/m^2.
+pub fn per_area(lattice: Lattice) -> f64 {
+    2.0 * DIMENSIONS / (lattice.spread * lattice.density)
+}
+
+/// MPS's weight of a neighbour, 0 in unused slots.
+#[inline(always)]
+fn weight<T: Real>(square: T::Pack) -> T::Pack {
+    let (one, zero) = (T::Pack::splat(T::from_f64(1.0)), T::Pack::zero());
+    square.select_above(zero, one / square.sqrt() - one, zero).max(zero)
+}
+
+/// Fills rows, diagonal and source; the pressure becomes 0 at the surface and behind the walls. `stiffness` is
+/// `relaxation (rho / dt^2) (lambda n0 / 2 D)`, Pa.
+pub fn assemble<T: Real>(
+    around: Around<T>,
+    stiffness: T,
+    pressured: usize,
+    crowding: &[T],
+    surface: &[u32],
+    row: &mut [T],
+    [diagonal, source, pressure]: [&mut [T]; 3],
+) {
+    let slots = around.lists.capacity;
+    let one = T::from_f64(1.0);
+    let held = |i: usize| if i >= pressured || surface[i] != 0 { T::zero() } else { one };
+    let has = |i: usize| if i >= pressured { T::zero() } else { one };
+    let scalars = [(diagonal, 1), (source, 1), (pressure, 1)];
+    blocks::for_each_4((row, slots), scalars, &|block, row, diagonal, source, pressure| {
+        for first in (0..BLOCK).step_by(T::Pack::LANES) {
+            let i = block * BLOCK + first;
+            let inside = T::Pack::from_lanes(|lane| held(i + lane));
+            let mut sum = T::Pack::zero();
+            Stencil::new(around, i).for_each(|near| {
+                let other = T::Pack::from_lanes(|lane| has(near.index[lane] as usize));
+                let entry = inside * other * weight::<T>(near.square);
+                entry.store(&mut row[near.slot * BLOCK + first..]);
+                sum += entry;
+            });
+            for lane in 0..T::Pack::LANES {
+                let (at, free) = (first + lane, inside.lane(lane) == T::zero());
+                diagonal[at] = if free || sum.lane(lane) == T::zero() { one } else { sum.lane(lane) };
+                source[at] = stiffness * (crowding[i + lane] - one);
+                if free {
+                    (source[at], pressure[at]) = (T::zero(), T::zero());
+                }
+            }
+        }
+    });
+}
+
+/// Divergence of a velocity by the weighted mean (2.3), 1/s, at the points below `end` that are not the surface; `scale` is `D / n0`.
+pub fn divergence<T: Real>(
+    around: Around<T>,
+    scale: T,
+    velocity: &[T],
+    surface: &[u32],
+    end: usize,
+    divergence: &mut [T],
+) {
+    blocks::for_each(divergence, 1, &|block, out| {
+        for i in blocks::packs::<T>(block, end) {
+            let own = T::Pack::load_vectors(&velocity[2 * i..]);
+            let zero = T::Pack::zero();
+            let (mut sum, stencil) = (zero, Stencil::new(around, i));
+            stencil.for_each(|near| {
+                // SAFETY: every stored neighbour is below the number of points.
+                let [u, v] = unsafe { T::Pack::gather_vectors(velocity, near.index) };
+                let per_square = near.square.select_above(zero, weight::<T>(near.square) / near.square, zero);
+                sum += per_square * ((u - own[0]) * near.offset[0] + (v - own[1]) * near.offset[1]);
+            });
+            let value = sum * stencil.per_radius * T::Pack::splat(scale);
+            for lane in 0..T::Pack::LANES.min(end - i) {
+                let free = surface[i + lane] != 0;
+                out[i - block * BLOCK + lane] = if free { T::zero() } else { value.lane(lane) };
+            }
+        }
+    });
+}
+
+/// Fluid does not pull: pressures below 0 become 0.
+pub fn clamp<T: Real>(pressure: &mut [T]) {
+    blocks::for_each(pressure, 1, &|_, out| out.iter_mut().for_each(|p| *p = p.max(T::zero())));
+}
+
+/// The correction below `interior`, and the way `dt (u' - u*)`. `gradient` is `(dt / rho) (D / n0)`.
+pub fn correct_by_least<T: Real>(
+    around: Around<T>,
+    pressure: &[T],
+    [dt, gradient]: [T; 2],
+    [interior, pressured]: [usize; 2],
+    projected: &mut [T],
+    displacement: &mut [T],
+) {
+    blocks::for_each_2((projected, 2), (displacement, 2), &|block, projected, displacement| {
+        for i in blocks::packs::<T>(block, interior) {
+            let stencil = Stencil::new(around, i);
+            let zero = T::Pack::zero();
+            let mut least = T::Pack::load(&pressure[i..]);
+            stencil.for_each(|near| {
+                // SAFETY: every stored neighbour is below the number of points. Those behind walls have none to compare.
+                let there = unsafe { T::Pack::gather(pressure, near.index) };
+                let there = T::Pack::from_lanes(|lane| match (near.index[lane] as usize) < pressured {
+                    true => there.lane(lane),
+                    false => least.lane(lane),
+                });
+                least = least - (least - there).max(zero);
+            });
+            let mut sum = [zero; 2];
+            stencil.for_each(|near| {
+                // SAFETY: as above.
+                let there = unsafe { T::Pack::gather(pressure, near.index) };
+                let there = T::Pack::from_lanes(|lane| match (near.index[lane] as usize) < pressured {
+                    true => there.lane(lane),
+                    false => least.lane(lane),
+                });
+                let per_square = near.square.select_above(zero, weight::<T>(near.square) / near.square, zero);
+                let factor = (there - least) * per_square;
+                sum[0] += factor * near.offset[0];
+                sum[1] += factor * near.offset[1];
+            });
+            let scale = T::Pack::splat(-gradient) * stencil.per_radius;
+            let change = sum.map(|sum| scale * sum);
+            for lane in 0..T::Pack::LANES.min(interior - i) {
+                for (axis, change) in change.iter().enumerate() {
+                    let at = 2 * (i - block * BLOCK + lane) + axis;
+                    projected[at] += change.lane(lane);
+                    displacement[at] = dt * change.lane(lane);
+                }
+            }
+        }
+    });
+}

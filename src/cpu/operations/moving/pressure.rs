@@ -1,0 +1,183 @@
+//! The pressure of points that move, by fits: the paper's interpolation form with a free surface.
+//!
+//! Continuous: `lap p = (rho / dt) div u*` (3.2), `p = 0` at the free surface, `u' = u* - (dt / rho) grad p`; the places follow,
+//! `r' = r* + dt (u' - u*)`. With a relaxed density term the source is `(rho / dt) div u* - relaxation (rho / dt^2) (c - 1)`, `c`
+//! the number density over that of a lattice: points that have come too close part again.
+//! Discrete: rows of the fitted Laplacian over neighbours and images, (2.6). The pressure of an image is that of its point
+//! and `rho g . way` more, so that a fluid at rest has no gradient across a wall but gravity's.
+//! Units: rows 1/m^2, source Pa/m^2.
+
+use super::N;
+use super::fits::{coefficient, factor_of};
+use super::mirror::{Around, OWN, Stencil};
+use crate::case::Weight;
+use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::lists::Lists;
+use crate::cpu::operations::moments;
+use crate::cpu::real::{Pack, Real};
+
+/// Entries of the wrong sign in a row of the fitted Laplacian, over those of the right one, above which the row is that of the
+/// weighted mean instead, (2.4): with many the matrix is no longer one of a diffusion.
+pub const WRONG_SIGN: f64 = 0.2;
+
+/// Numbers of the pressure equation.
+#[derive(Debug, Clone, Copy)]
+pub struct Equation<T> {
+    pub weight: Weight,
+    /// `rho g`, Pa/m.
+    pub weight_density: [T; 2],
+    /// `rho / dt`, kg/(m^3 s).
+    pub density_per_dt: T,
+    /// `relaxation rho / dt^2`, Pa/m^2.
+    pub stiffness: T,
+    /// `2 D / (lambda n0)`, 1/m^2.
+    pub per_area: T,
+}
+
+/// Fills rows, diagonal and source; the pressure becomes 0 at the surface.
+pub fn assemble<T: Real>(
+    around: Around<T>,
+    equation: Equation<T>,
+    factor: &[T],
+    crowding: &[T],
+    surface: &[u32],
+    coefficients: &[T],
+    row: &mut [T],
+    [diagonal, source, pressure]: [&mut [T]; 3],
+) {
+    let slots = around.lists.capacity;
+    let one = T::from_f64(1.0);
+    let [gx, gy] = equation.weight_density.map(T::Pack::splat);
+    let scalars = [(diagonal, 1), (source, 1), (pressure, 1)];
+    blocks::for_each_4((row, slots), scalars, &|block, row, diagonal, source, pressure| {
+        for first in (0..BLOCK).step_by(T::Pack::LANES) {
+            let i = block * BLOCK + first;
+            let inside = T::Pack::from_lanes(|lane| if surface[i + lane] == 0 { one } else { T::zero() });
+            let stencil = Stencil::new(around, i);
+            let mut of = [T::Pack::zero(); N];
+            of[2] = T::Pack::splat(T::from_f64(2.0)) * stencil.per_radius * stencil.per_radius;
+            of[4] = of[2];
+            let c = moments::solve(&factor_of(factor, i), of);
+            let mut signs = [T::Pack::zero(); 2];
+            stencil.for_each(|near| {
+                let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
+                let entry = near.counts * moments::weight(equation.weight, near.square) * dot(&c, basis);
+                signs[0] += (-entry).max(T::Pack::zero());
+                signs[1] += entry.max(T::Pack::zero());
+            });
+            let limit = T::Pack::splat(T::from_f64(WRONG_SIGN));
+            let fits =
+                (limit * signs[1] - signs[0]).select_above(T::Pack::zero(), T::Pack::splat(one), T::Pack::zero());
+            let mean = (T::Pack::splat(one) - fits) * T::Pack::splat(equation.per_area);
+            let (mut sum, mut offset) = (T::Pack::zero(), T::Pack::zero());
+            // Whether a point has a neighbour on the surface.
+            let mut shore = T::Pack::zero();
+            stencil.for_each(|near| {
+                let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
+                let weight = near.counts * moments::weight(equation.weight, near.square);
+                let plain = near
+                    .square
+                    .select_above(
+                        T::Pack::zero(),
+                        T::Pack::splat(one) / near.square.sqrt() - T::Pack::splat(one),
+                        T::Pack::zero(),
+                    )
+                    .max(T::Pack::zero());
+                let entry = inside * (fits * weight * dot(&c, basis) + near.counts * mean * plain);
+                if near.is_point() {
+                    entry.store(&mut row[near.slot * BLOCK + first..]);
+                    shore += T::Pack::from_lanes(|lane| T::from_f64(f64::from(surface[near.index[lane] as usize])));
+                } else {
+                    offset += entry * (gx * near.way[0] + gy * near.way[1]);
+                    if near.slot != OWN {
+                        let place = near.slot * BLOCK + first;
+                        (T::Pack::load(&row[place..]) + entry).store(&mut row[place..]);
+                    }
+                }
+                if near.slot != OWN {
+                    sum += entry;
+                }
+            });
+            let per_radius = stencil.per_radius;
+            let divergence = per_radius * (coefficient(coefficients, i, 0, 0) + coefficient(coefficients, i, 1, 1));
+            // Beside the surface a density below the lattice's is no error.
+            let excess = T::Pack::load(&crowding[i..]) - T::Pack::splat(one);
+            let excess = shore.select_above(T::Pack::zero(), excess.max(T::Pack::zero()), excess);
+            let flow =
+                T::Pack::splat(equation.density_per_dt) * divergence - T::Pack::splat(equation.stiffness) * excess;
+            let right = inside * (flow - offset);
+            for lane in 0..T::Pack::LANES {
+                let (at, own) = (first + lane, -sum.lane(lane));
+                // No Laplacian that a pressure could answer to: as free as the surface.
+                let free = own >= T::zero();
+                diagonal[at] = if free { one } else { own };
+                source[at] = if free { T::zero() } else { right.lane(lane) };
+                if free {
+                    pressure[at] = T::zero();
+                    (0..slots).for_each(|slot| row[slot * BLOCK + at] = T::zero());
+                }
+            }
+        }
+    });
+}
+
+/// Thin fluid does not pull: pressures below 0 become 0 beside the surface.
+pub fn clamp<T: Real>(lists: Lists, surface: &[u32], pressure: &mut [T]) {
+    blocks::for_each(pressure, 1, &|block, out| {
+        for (lane, p) in out.iter_mut().enumerate().filter(|(_, p)| **p < T::zero()) {
+            let i = block * BLOCK + lane;
+            let first = blocks::at(i, 0, lists.capacity);
+            let mut near = (0..(lists.count[i] as usize).min(lists.capacity))
+                .map(|slot| lists.neighbours[first + slot * BLOCK] as usize);
+            if near.any(|j| surface[j] != 0) {
+                *p = T::zero();
+            }
+        }
+    });
+}
+
+/// `u' = u* - (dt / rho) grad p` and the way `dt (u' - u*)` at the points below `interior`.
+pub fn correct<T: Real>(
+    around: Around<T>,
+    equation: Equation<T>,
+    factor: &[T],
+    pressure: &[T],
+    [dt, dt_per_density]: [T; 2],
+    interior: usize,
+    projected: &mut [T],
+    displacement: &mut [T],
+) {
+    let [gx, gy] = equation.weight_density.map(T::Pack::splat);
+    blocks::for_each_2((projected, 2), (displacement, 2), &|block, projected, displacement| {
+        for i in blocks::packs::<T>(block, interior) {
+            let own = T::Pack::load(&pressure[i..]);
+            let stencil = Stencil::new(around, i);
+            let mut right = [T::Pack::zero(); N];
+            stencil.for_each(|near| {
+                // SAFETY: every stored neighbour is below the number of points.
+                let there = unsafe { T::Pack::gather(pressure, near.index) };
+                let there = there + gx * near.way[0] + gy * near.way[1];
+                let value = near.counts * moments::weight(equation.weight, near.square) * (there - own);
+                let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
+                for k in 0..N {
+                    right[k] = value.mul_add(basis[k], right[k]);
+                }
+            });
+            let fitted = moments::solve(&factor_of(factor, i), right);
+            let scale = T::Pack::splat(-dt_per_density) * stencil.per_radius;
+            let change = [scale * fitted[0], scale * fitted[1]];
+            for lane in 0..T::Pack::LANES.min(interior - i) {
+                for (axis, change) in change.iter().enumerate() {
+                    let at = 2 * (i - block * BLOCK + lane) + axis;
+                    projected[at] += change.lane(lane);
+                    displacement[at] = dt * change.lane(lane);
+                }
+            }
+        }
+    });
+}
+
+#[inline(always)]
+fn dot<T: Real, P: Pack<T>>(c: &[P; N], b: [P; N]) -> P {
+    (1..N).fold(c[0] * b[0], |sum, k| c[k].mul_add(b[k], sum))
+}
