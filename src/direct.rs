@@ -14,6 +14,7 @@ use faer::{Mat, Side};
 use crate::case::PressureForm;
 use crate::cloud::voronoi::Cells;
 use crate::cpu::blocks;
+use crate::cpu::operations::moving::density;
 use crate::engine::{Data, EngineError};
 use crate::scene::Scene;
 use crate::step::{Buffer, Points};
@@ -148,7 +149,11 @@ impl DirectSolver {
         if let Some(cells) = scene.cells() {
             left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);
         }
-        (left.iter().map(|r| r * r).sum::<f64>() / points).sqrt()
+        let unit = match scene.plan.form {
+            Some(PressureForm::Integral) => density::per_area(scene.constants.lattice),
+            _ => 1.0,
+        };
+        unit * (left.iter().map(|r| r * r).sum::<f64>() / points).sqrt()
     }
 }
 

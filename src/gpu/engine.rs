@@ -82,6 +82,7 @@ impl GpuEngine {
                 Time::DensityPerKick => density_per_kick,
                 Time::Correction => clock.kick / constants.density,
                 Time::Diffusion => clock.kick * constants.viscosity,
+                Time::Stiffness => self.scene.stiffness(clock.dt),
                 Time::Stop => constants.tolerance * density_per_kick / clock.dt,
             })
             .collect();
@@ -157,8 +158,9 @@ impl GpuEngine {
             };
         }
         let direct = match self.direct.take() {
-            Some(direct) => direct,
-            None => DirectSolver::new(&self.scene, &mut |buffer| self.memory.read(&self.gpu, buffer))?,
+            // The matrix of points that move is another one in every step.
+            Some(direct) if !self.scene.plan.moves() => direct,
+            _ => DirectSolver::new(&self.scene, &mut |buffer| self.memory.read(&self.gpu, buffer))?,
         };
         let pressure = direct.solve(&source)?;
         self.memory.write(&self.gpu, Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;

@@ -103,6 +103,8 @@ numbered! {
         Correction = "CLOCK_CORRECTION",
         /// `kick nu`.
         Diffusion = "CLOCK_DIFFUSION",
+        /// `relaxation rho / dt^2`: of an error in density.
+        Stiffness = "CLOCK_STIFFNESS",
         /// Residual at which a solve is done.
         Stop = "CLOCK_STOP",
     }

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
 use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
+use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
 use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
@@ -85,6 +86,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("POINTS", sizes.points),
         ("PADDED", scene.padded()),
         ("INTERIOR", sizes.interior),
+        ("PRESSURED", sizes.pressured),
+        ("FEWEST", constants.fewest as usize),
+        ("SURFACE_GAP", surface::GAP as usize),
         ("FORCED", forced),
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
@@ -116,6 +120,23 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     ];
     let real: &[(&str, f64)] = &[
         ("RADIUS", constants.radius),
+        ("SPACING", constants.spacing),
+        ("DENSITY", constants.density),
+        ("FITTED_DENSITY", constants.crowd),
+        ("PER_AREA", density::per_area(constants.lattice)),
+        ("MOVING_PIVOT", fits::PIVOT),
+        ("WRONG_SIGN", pressure::WRONG_SIGN),
+        ("SURFACE_THRESHOLD", surface::THRESHOLD),
+        ("SURFACE_THIN", surface::THIN),
+        ("TWICE_CIRCLE", 2.0 * surface::REACH * constants.spacing / constants.radius),
+        ("SHIFT_REACH", shift::REACH),
+        ("SHIFT_STRENGTH", shift::STRENGTH),
+        ("SHIFT_PARTING", shift::PARTING),
+        ("SHIFT_LONGEST", shift::LONGEST),
+        ("CLEARANCE", travel::CLEARANCE * constants.spacing),
+        ("BOUNCE_DISTANCE", scene.bounce_distance()),
+        ("BOUNCE_RESTITUTION", collide::RESTITUTION),
+        ("SINGULAR", f64::from(u8::from(!scene.plan.moves()))),
         ("LATTICE_DENSITY", constants.lattice.density),
         ("LATTICE_SPREAD", constants.lattice.spread),
         ("DIMENSIONS", DIMENSIONS),
@@ -142,6 +163,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));
     }
+    line(&mut text, format_args!("const MIRRORS: bool = {};", scene.plan.mirrors()));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");

@@ -137,7 +137,8 @@ pub(super) fn measured_arrays(scene: &Scene) -> Arrays {
     ];
     let faces = [Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount];
     let fluxes = [Buffer::FluxPoints, Buffer::FluxCount, Buffer::FluxRow, Buffer::WallFlux];
-    let fields = [Buffer::Position(standing), Buffer::Volume, Buffer::Projected, Buffer::Reported];
+    let fields =
+        [Buffer::Position(standing), Buffer::Volume, Buffer::Projected, Buffer::Reported, Buffer::Surface];
     let used = scene.plan.buffers();
     reading(fits.into_iter().chain(faces).chain(fluxes).chain(fields).filter(|buffer| used.contains(buffer)))
 }

@@ -132,7 +132,25 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
         Operation::HoldWalls => once(stage!("hold_walls", Points)),
         Operation::Reflect => once(stage!("reflect", Points)),
-        _ => Stages::Once(vec![]),
+        Operation::AdvancePoints => once(stage!("advance_points", Points)),
+        Operation::FactoriseMirrored => once(stage!("factorise_mirrored", Points)),
+        Operation::FitPredicted => once(stage!("fit_predicted", Points)),
+        Operation::FitMirrored => once(stage!("fit_mirrored", Points)),
+        Operation::FittedViscosity => once(stage!("fitted_viscosity", Points)),
+        Operation::FindSurface => once(stage!("find_surface", Points)),
+        Operation::AssembleMirrored => once(stage!("assemble_mirrored", Points)),
+        Operation::AssembleDensity => once(stage!("assemble_density", Points)),
+        Operation::CorrectMirrored => {
+            Stages::Once(vec![stage!("correct_mirrored/clamp", Points), stage!("correct_mirrored/gradient", Points)])
+        }
+        Operation::CorrectByLeast => {
+            Stages::Once(vec![stage!("correct_by_least/clamp", Points), stage!("correct_by_least/gradient", Points)])
+        }
+        Operation::ShiftPoints => once(stage!("shift_points", Points)),
+        Operation::DisplacePoints => once(stage!("displace_points", Points)),
+        Operation::Collide => {
+            Stages::Once(vec![stage!("collide/impulses", Points), stage!("collide/bounce", Points)])
+        }
     }
 }
 
@@ -144,6 +162,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         };
     }
     let conservative = scene.plan.form == Some(PressureForm::Conservative);
+    let integral = scene.plan.form == Some(PressureForm::Integral);
     Some(match name {
         "points" => text!("points"),
         "cells" => text!("cells"),
@@ -153,6 +172,12 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "fit" => text!("fit"),
         "fit_rows" => text!("fit_rows"),
         "mean" => text!("mean"),
+        "mirror" => text!("mirror"),
+        "mirrored_fit" => text!("mirrored_fit"),
+        "stored_coefficient" => text!("stored_coefficient"),
+        "tank" => text!("tank"),
+        "crowding" if integral => text!("crowding/mean"),
+        "crowding" => text!("crowding/fitted"),
         "gradient" => text!("gradient"),
         "fitted_flux" => text!("fitted_flux"),
         "evaluate" => text!("evaluate"),
@@ -172,11 +197,15 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "wall_flux_of" if scene.plan.through_flow => text!("wall_flux/prescribed"),
         "wall_flux_of" => text!("wall_flux/none"),
         "matrix" if conservative => text!("matrix/conservative"),
+        "matrix" if integral => text!("matrix/symmetric"),
         "matrix" => text!("matrix/collocated"),
         "density" if conservative => text!("density/conservative"),
+        "density" if integral => text!("density/symmetric"),
         "density" => text!("density/collocated"),
         "divergence_of" if scene.fluxes().is_some() => text!("divergence/fitted_faces"),
         "divergence_of" if conservative => text!("divergence/conservative"),
+        "divergence_of" if integral => text!("divergence/mean"),
+        "divergence_of" if scene.plan.moves() => text!("divergence/mirrored"),
         "divergence_of" => text!("divergence/fitted"),
         _ => return None,
     })

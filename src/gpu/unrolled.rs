@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use crate::cpu::operations::moments::{MONOMIALS, coefficients, entries, moments, start};
+use crate::cpu::operations::moving::surface;
 
 /// The text of a library file for fits of this order; `None` for a name that stands for none.
 pub(super) fn library(name: &str, order: usize) -> Option<String> {
@@ -15,6 +16,7 @@ pub(super) fn library(name: &str, order: usize) -> Option<String> {
         "unrolled/matrix" => matrix(&mut text, order),
         "unrolled/store_fit" => store_fit(&mut text, order),
         "unrolled/stored_fit" => stored_fit(&mut text, order),
+        "unrolled/covered" => covered(&mut text),
         _ => return None,
     }
     Some(text.0)
@@ -165,6 +167,15 @@ fn store_fit(text: &mut Text, order: usize) {
         }
     }
     text.line("}");
+}
+
+/// Which of the places on the circle about a point a neighbour's circle covers, one bit each.
+fn covered(text: &mut Text) {
+    text.line("fn covered_by(offset: vector, square: real) -> u32 {\n    var word = 0u;");
+    for (k, [x, y]) in surface::directions().into_iter().enumerate() {
+        text.line(format!("    word |= select(0u, {}u, TWICE_CIRCLE * dot(offset, vector({x:e}, {y:e})) > square);", 1_u32 << k));
+    }
+    text.line("    return word;\n}");
 }
 
 /// The same taken out again.

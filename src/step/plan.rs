@@ -155,7 +155,12 @@ impl Plan {
         if effects.gravity.is_some() {
             drift.push(Gravity);
         }
-        drift.extend([Predict, AdvancePoints]);
+        drift.push(Predict);
+        if integral && effects.gravity.is_some() {
+            // Gravity reached the walls' points.
+            drift.push(HoldWalls);
+        }
+        drift.push(AdvancePoints);
         drift.extend(search);
         // The paper's interpolation form has nothing to hold points apart.
         if integral || motion == Motion::Shifted {

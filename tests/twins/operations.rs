@@ -59,6 +59,10 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::AssembleIntegralLaplacian
         | Operation::AssembleIntegralGradient
         | Operation::AssembleCollocated
+        | Operation::FactoriseMirrored
+        | Operation::FitPredicted
+        | Operation::FitMirrored
+        | Operation::FindSurface
         | Operation::FitVelocity(_)
         | Operation::MovePoints
         | Operation::KeepVelocity
@@ -102,10 +106,11 @@ fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
     if !scene.plan.flows {
         return through(&scene.plan.kick, engines);
     }
-    if scene.cloud.normal.is_empty() {
+    if scene.cloud.normal.is_empty() && !scene.plan.moves() {
         stir(scene, engines.double.as_mut());
     }
-    for &operation in &scene.plan.kick {
+    // Points that move begin with the drift, which searches for neighbours.
+    for &operation in scene.plan.kick.iter().filter(|_| !scene.plan.moves()) {
         engines.double.apply(operation, &Clock { second_kick: 0.0, ..clock }).expect("a first kick");
     }
     let done = engines.double.advance(STEPS, &clock).expect("steps");

@@ -1,6 +1,7 @@
 //! Small scenes which between them hold every operation, every choice of the case file that reaches an engine, and every rung
 //! of the ladder.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -147,6 +148,9 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     scenes.push(("integral", Arc::new(integral)));
     scenes.push(("rows of points", Arc::new(ladder(2))));
     scenes.push(("rows of points, order 4", Arc::new(ladder(4))));
+    for (name, changes) in COLUMNS {
+        scenes.push((name, Arc::new(column(changes))));
+    }
     // The sums over workgroups take more than one round, and more than one tile of cells.
     let many = cavity_of(144, &["cloud.arrangement=jittered", TIGHT]);
     scenes.push(("many points", Arc::new(Scene::build(&many).expect("a scene"))));
@@ -156,6 +160,31 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
 /// The cavity on 17 x 17 points with `changes`.
 pub fn of(changes: &[&str]) -> Scene {
     Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
+}
+
+/// Columns of fluid that collapse, by the motion of their points.
+const COLUMNS: [(&str, &[&str]); 3] = [
+    ("shifted points", &["effects.advection.motion=shifted"]),
+    (
+        "points that move, quadratic weight",
+        &["effects.advection.motion=lagrangian", "method.weight=quadratic", "cloud.arrangement=jittered", "cloud.jitter=0.2"],
+    ),
+    ("points that move, MPS", &["effects.advection.motion=lagrangian", "method.operators=integral"]),
+];
+
+/// A column in a tank, 10 spacings wide and 15 high, viscous, in a step between two looks.
+fn column(changes: &[&str]) -> Scene {
+    let text = "title = 'a column'\n\
+                domain = { width = 3.0, height = 2.5 }\n\
+                cloud = { arrangement = 'regular', spacing = 0.1, fill = { from = [0.0, 0.0], to = [1.0, 1.5] } }\n\
+                fluid.density = 2.0\n\
+                effects.viscosity.kinematic = 0.01\n\
+                effects.gravity.acceleration = [0.0, -1.0]\n\
+                effects.pressure.tolerance = 1e-9\n\
+                time = { end = 1.0, courant = 0.2 }\n";
+    let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
+    let case = Case::from_text(text, Path::new("column.toml"), &changes).expect("a case");
+    Scene::build(&case).expect("a scene")
 }
 
 /// Along x the domain repeats, along y it ends at walls, of which one moves.
@@ -188,7 +217,17 @@ fn ladder(order: usize) -> Scene {
     ]
     .concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO };
+    let cloud = Cloud {
+        pressured: interior,
+        filled: None,
+        position,
+        interior,
+        normal: vec![],
+        sides: vec![],
+        spacing: 1.0,
+        size,
+        period: DVec2::ZERO,
+    };
     let mut case = cavity_of(1, &["domain.width=40.0", "domain.height=40.0"]);
     case.effects.pressure = None;
     (case.method.order, case.method.radius) = (order, Some(radius));

@@ -89,6 +89,19 @@ fn periodic_scene() -> Scene {
     scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + VORTICES), &changes)
 }
 
+/// Points that move: shifted, and MPS.
+fn moving_scenes() -> [Scene; 2] {
+    let text = CAVITY
+        .replace("top.velocity = [1.0, 0.0]\n", "")
+        .replace("spacing = 0.0625", "spacing = 0.0625\nfill = { from = [0.0, 0.0], to = [0.5, 0.5] }")
+        + "[effects.gravity]\nacceleration = [0.0, -1.0]\n";
+    let lagrangian = ["effects.advection.motion=\"lagrangian\"", "method.operators=\"integral\""];
+    [
+        scene_of(&text, &["effects.advection.motion=\"shifted\"", "time.courant=0.2"]),
+        scene_of(&text, &[&lagrangian[..], &["time.courant=0.2"]].concat()),
+    ]
+}
+
 /// The adapter that the tests run on; `None` where those that need one are skipped.
 fn candidate() -> Option<Candidate> {
     (!needed::skipped(&[include_str!("runs.rs")])).then(|| needed::required(adapter::choose(None)))

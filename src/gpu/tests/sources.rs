@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{CHANGES, Precision, forceless_scene, open_scene, periodic_scene, scene, still_scene};
+use super::{CHANGES, Precision, forceless_scene, moving_scenes, open_scene, periodic_scene, scene, still_scene};
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
 use crate::gpu::prelude::prelude;
@@ -20,7 +20,7 @@ const NOT_IN_F64: [&str; 12] =
 
 fn scenes() -> Vec<Scene> {
     let others = [still_scene(), forceless_scene(), open_scene(), periodic_scene()];
-    CHANGES.iter().map(|changes| scene(changes)).chain(others).collect()
+    CHANGES.iter().map(|changes| scene(changes)).chain(others).chain(moving_scenes()).collect()
 }
 
 /// Every kernel of a scene, by name, as the driver gets it.
@@ -100,6 +100,20 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::CorrectByAdjoint,
         Operation::HoldWalls,
         Operation::Reflect,
+        Operation::AdvancePoints,
+        Operation::FactoriseMirrored,
+        Operation::FitPredicted,
+        Operation::FitMirrored,
+        Operation::FittedViscosity,
+        Operation::FindSurface,
+        Operation::AssembleMirrored,
+        Operation::AssembleDensity,
+        Operation::CorrectMirrored,
+        Operation::CorrectByLeast,
+        Operation::ShiftPoints,
+        Operation::DisplacePoints,
+        Operation::Collide,
+        Operation::AssembleIntegralLaplacian,
     ]
     .into();
     for operation in [
