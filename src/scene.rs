@@ -1,5 +1,7 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
+mod carried;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -26,7 +28,7 @@ pub struct Scene {
     pub constants: Constants,
     /// The flow that the case knows.
     exact: Option<Exact>,
-    /// Voronoi cells, where the plan's pressure is conservative.
+    /// Voronoi cells, where the plan has faces.
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
@@ -54,8 +56,16 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// Where on the way back to a departure point the velocity is taken, over the step.
+    pub trace: f64,
     /// m/s^2; 0 without gravity.
     pub gravity: DVec2,
+    /// What a degree above the reference adds to it, `-beta g`, m/(s^2 K); 0 without buoyancy.
+    pub lift: DVec2,
+    /// K
+    pub reference_temperature: f64,
+    /// Largest stable step of the diffusion of the carried fields, s.
+    pub diffusion_limit: f64,
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
@@ -94,7 +104,7 @@ impl Scene {
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
-        let cells = conservative.then(|| Cells::build(&cloud));
+        let cells = plan.has_faces().then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
         let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
         let sizes = Sizes {
@@ -107,7 +117,7 @@ impl Scene {
             coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
-        let constants = Constants {
+        let mut constants = Constants {
             radius,
             weight: case.method.weight,
             order: case.method.order,
@@ -119,17 +129,25 @@ impl Scene {
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
+            trace: if case.velocity_changes() { 1.0 } else { 0.5 },
+            lift: DVec2::ZERO,
+            reference_temperature: 0.0,
+            diffusion_limit: carried::limit(case, cells.as_ref()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
+        if let Some(buoyancy) = &case.effects.buoyancy {
+            constants.lift = -buoyancy.expansion * constants.gravity;
+            constants.reference_temperature = buoyancy.reference;
+        }
         Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
     }
 
-    /// The Voronoi cells; `None` unless the pressure is conservative.
+    /// The Voronoi cells of the pressure; `None` unless its form is conservative.
     pub fn cells(&self) -> Option<&Cells> {
-        self.cells.as_ref()
+        self.cells.as_ref().filter(|_| self.plan.form == Some(PressureForm::Conservative))
     }
 
     /// The flux out of the cells; `None` unless the plan fits it.
@@ -197,6 +215,7 @@ impl Scene {
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
         }
+        data.extend(carried::initial(self, &volume));
         data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));

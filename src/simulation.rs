@@ -97,11 +97,11 @@ pub enum SimulationError {
     )]
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
-    NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+    NotFinite { field: String, point: usize, x: f64, y: f64 },
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
-fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
+fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
     let columns = snapshot.columns();
     columns.iter().find_map(|column| {
         let found = |point| column.at(point).find(|(_, value)| !value.is_finite()).map(|(name, _)| (name, point));
@@ -111,8 +111,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
 
 /// Longest stretch of steps between two looks at the observer.
 const STRETCH: Duration = Duration::from_millis(250);
-/// Share of the viscous stability limit that a step uses.
-const VISCOUS_SAFETY: f64 = 0.8;
+/// Share of the stability limit of viscosity and diffusion that a step uses.
+const STABLE_SHARE: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -129,7 +129,7 @@ struct Run<'a> {
     scene: &'a Scene,
     engine: &'a mut dyn Engine,
     observer: &'a mut dyn Observer,
-    /// Largest stable step of the viscous term, s.
+    /// Longest step that viscosity and diffusion allow, s.
     limit: f64,
     warnings: Vec<String>,
 }
@@ -141,7 +141,7 @@ impl Run<'_> {
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.viscous_limit()?;
+        self.limit = self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit);
         let ladder = self.ladder()?;
         let setup = started.elapsed();
         if !self.scene.plan.flows {
@@ -238,6 +238,7 @@ impl Run<'_> {
         };
         if let Some((field, point)) = not_finite(&snapshot) {
             let place = self.scene.cloud.position[point];
+            let field = field.to_owned();
             return Err(SimulationError::NotFinite { field, point, x: place.x, y: place.y });
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
@@ -295,7 +296,9 @@ impl Run<'_> {
         }
         if dt > self.limit && self.warnings.is_empty() {
             let limit = self.limit;
-            self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
+            let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= limit;
+            let name = if diffuses { "diffusion" } else { "viscosity" };
+            self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
         Ok(dt)
     }
@@ -321,7 +324,14 @@ impl Run<'_> {
             let inside = vec![balance; self.scene.sizes.interior];
             self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
         }
-        for &operation in &self.scene.plan.kick {
+        // A carried field has its half step before the first drift anyway.
+        let forces = self
+            .scene
+            .plan
+            .kick
+            .iter()
+            .filter(|operation| !matches!(operation, Operation::Diffuse(..) | Operation::HeatWalls(_)));
+        for &operation in forces {
             self.engine.apply(operation, &clock)?;
         }
         Ok(())
@@ -376,7 +386,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(VISCOUS_SAFETY * 2.0 / radius)
+        Ok(STABLE_SHARE * 2.0 / radius)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
@@ -412,7 +422,15 @@ impl Run<'_> {
             let mean = values[..points].iter().sum::<f64>() / points as f64;
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
+        let mut carried = Vec::new();
+        for &field in &self.scene.plan.carried {
+            if let Data::Real(mut values) = self.engine.read(Buffer::Carried(field))? {
+                values.truncate(points);
+                carried.push((self.scene.case.field_name(field), values));
+            }
+        }
+        let position = self.scene.cloud.position.clone();
+        Ok(Snapshot { time, position, velocity, pressure, carried, derivatives: None })
     }
 }
 

@@ -116,6 +116,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     ];
     let real: &[(&str, f64)] = &[
         ("RADIUS", constants.radius),
+        ("TRACE", constants.trace),
+        ("REFERENCE_TEMPERATURE", constants.reference_temperature),
         ("LATTICE_DENSITY", constants.lattice.density),
         ("LATTICE_SPREAD", constants.lattice.spread),
         ("DIMENSIONS", DIMENSIONS),
@@ -138,6 +140,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("PERIOD", constants.period),
         ("PER_PERIOD", per_period),
         ("GRAVITY", constants.gravity),
+        ("LIFT", constants.lift),
     ];
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));

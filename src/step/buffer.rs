@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{BLOCK, Sizes};
+use super::{BLOCK, Carried, Sizes};
 use crate::cpu::operations::moments::entries;
 
 /// Which places of the points an array or an operation belongs to.
@@ -77,6 +77,20 @@ pub enum Buffer {
     PressureKick,
     /// The scaled coefficients of the fit of u, five for order 2, then of v, m/s, blocked.
     Coefficients,
+    /// A scalar field that the flow carries along, in its own unit.
+    Carried(Carried),
+    /// How fast its neighbours' values reach a point, `D / V_i`, 1/(m^2 s); 0 where the value is held.
+    Reach(Carried),
+    /// What the heat flux through the walls adds to the temperature of the cells there, K/s. Prescribed fluxes alone.
+    HeatSupply,
+    /// Where the fluid that arrives at each point came from, m; interleaved.
+    Departure,
+    /// The point nearest to there.
+    DepartureNearest,
+    /// The value of a carried field at every point, then the scaled coefficients of its fit, blocked; of one field after another.
+    ScalarFit,
+    /// A carried field in the middle of a step of its diffusion; of one field after another.
+    ScalarMiddle,
     /// Pressure `p`, Pa.
     Pressure,
     /// Right side of the pressure equation.
@@ -141,6 +155,13 @@ impl Buffer {
             Buffer::Reflected => ("reflected", None),
             Buffer::PressureKick => ("pressure_kick", None),
             Buffer::Coefficients => ("coefficients", None),
+            Buffer::Carried(carried) => return carried.name(),
+            Buffer::Reach(carried) => return format!("{}_reach", carried.name()),
+            Buffer::HeatSupply => ("heat_supply", None),
+            Buffer::Departure => ("departure", None),
+            Buffer::DepartureNearest => ("departure_nearest", None),
+            Buffer::ScalarFit => ("scalar_fit", None),
+            Buffer::ScalarMiddle => ("scalar_middle", None),
             Buffer::Pressure => ("pressure", None),
             Buffer::Source => ("source", None),
             Buffer::Residual => ("residual", None),
@@ -172,7 +193,8 @@ impl Buffer {
             | Buffer::FaceNeighbours
             | Buffer::FaceCount
             | Buffer::FluxPoints
-            | Buffer::FluxCount => Element::Index,
+            | Buffer::FluxCount
+            | Buffer::DepartureNearest => Element::Index,
             _ => Element::Real,
         }
     }
@@ -189,6 +211,7 @@ impl Buffer {
             | Buffer::Reflected
             | Buffer::PressureKick
             | Buffer::Reported
+            | Buffer::Departure
             | Buffer::FieldGradient => 2,
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,
@@ -197,6 +220,7 @@ impl Buffer {
             Buffer::FluxRow => 2 * sizes.flux_capacity,
             Buffer::Factor(_) => entries(sizes.coefficients),
             Buffer::Coefficients => 2 * sizes.coefficients,
+            Buffer::ScalarFit => 1 + sizes.coefficients,
             _ => 1,
         })
     }

@@ -21,12 +21,14 @@
 //! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
 
 mod buffer;
+mod carried;
 mod grid;
 mod operation;
 mod plan;
 mod rung;
 
 pub use buffer::{Buffer, Element, Points};
+pub use carried::Carried;
 pub use grid::Grid;
 pub use operation::{Operation, Stage};
 pub use plan::{Plan, Sizes};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Points};
+use super::{Buffer, Carried, Points};
 
 /// Which velocity a force is taken of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -53,6 +53,18 @@ pub enum Operation {
     MovePoints,
     /// Evaluates the fit of each moved point at its standing place (the paper's section 5).
     RemapForward,
+    /// Finds where the fluid at every point came from, and the point nearest to there.
+    FindDepartures,
+    /// Evaluates the fits of the velocity there: as `RemapDeparture`, beside fields that the flow carries.
+    CarryVelocity,
+    /// Fits a field that the flow carries.
+    FitScalar(Carried),
+    /// Evaluates the fits of the field where the fluid came from.
+    CarryScalar(Carried),
+    /// Lets a carried field diffuse through the faces of the cells for half a step.
+    Diffuse(Carried, Stage),
+    /// Adds the heat that flows in through the walls to what `Diffuse` of the temperature gave.
+    HeatWalls(Stage),
     /// No advection: the velocity after the forces begins the next step.
     KeepVelocity,
 
@@ -62,6 +74,8 @@ pub enum Operation {
     EstimateMiddle,
     /// Adds `dt g` to the kick.
     Gravity,
+    /// Adds `-dt beta (T - T0) g` to the kick.
+    Buoyancy,
     /// Adds `dt nu lap u` to the kick.
     Viscosity(Stage),
     /// `u* = u + kick`.
@@ -114,10 +128,17 @@ impl Operation {
             Operation::RemapDeparture => "remap_departure",
             Operation::MovePoints => "move_points",
             Operation::RemapForward => "remap_forward",
+            Operation::FindDepartures => "find_departures",
+            Operation::CarryVelocity => "carry_velocity",
+            Operation::FitScalar(_) => "fit_scalar",
+            Operation::CarryScalar(_) => "carry_scalar",
+            Operation::Diffuse(..) => "diffuse",
+            Operation::HeatWalls(_) => "heat_walls",
             Operation::KeepVelocity => "keep_velocity",
             Operation::ClearKick => "clear_kick",
             Operation::EstimateMiddle => "estimate_middle",
             Operation::Gravity => "gravity",
+            Operation::Buoyancy => "buoyancy",
             Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
@@ -171,12 +192,36 @@ impl Operation {
                 let [around, around_count] = plan.around();
                 vec![Position(standing), around, around_count, Support(standing), plan.moving(), Coefficients]
             }
+            Operation::FindDepartures => {
+                let [around, around_count] = plan.around();
+                let fits = [Position(standing), around, around_count, Support(standing), plan.moving(), Coefficients];
+                with(fits.to_vec(), &[Normal])
+            }
+            Operation::CarryVelocity => {
+                let departures = [Departure, DepartureNearest];
+                with(departures.to_vec(), &[Position(standing), Support(standing), plan.moving(), Coefficients])
+            }
+            Operation::FitScalar(carried) => with(fits(standing), &[Carried(carried)]),
+            Operation::CarryScalar(carried) => {
+                let mut list = vec![Departure, DepartureNearest, Position(standing), Support(standing), ScalarFit];
+                if carried == super::Carried::Temperature {
+                    list.push(Reach(carried));
+                }
+                list
+            }
+            Operation::Diffuse(carried, stage) => {
+                let mut list = with(faces.to_vec(), &[Reach(carried)]);
+                list.push(if stage == Stage::Start { Carried(carried) } else { ScalarMiddle });
+                list
+            }
+            Operation::HeatWalls(_) => vec![HeatSupply],
             Operation::MovePoints => vec![Position(standing), plan.moving()],
             Operation::RemapForward => {
                 vec![Position(standing), Position(Points::Moved), Support(Points::Moved), plan.moving(), Coefficients]
             }
             Operation::KeepVelocity => vec![plan.moving()],
             Operation::ClearKick | Operation::Gravity => vec![],
+            Operation::Buoyancy => vec![Carried(super::Carried::Temperature)],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
@@ -211,9 +256,17 @@ impl Operation {
             Operation::AssembleGradient | Operation::AssembleIntegralGradient => vec![GradientRow],
             Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
             Operation::FitVelocity(_) => vec![Coefficients],
-            Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
+            Operation::RemapDeparture
+            | Operation::RemapForward
+            | Operation::CarryVelocity
+            | Operation::KeepVelocity => vec![Velocity],
+            Operation::FindDepartures => vec![Departure, DepartureNearest],
+            Operation::FitScalar(_) => vec![ScalarFit],
+            Operation::CarryScalar(carried) | Operation::Diffuse(carried, Stage::Middle) => vec![Carried(carried)],
+            Operation::Diffuse(_, Stage::Start) | Operation::HeatWalls(Stage::Start) => vec![ScalarMiddle],
+            Operation::HeatWalls(Stage::Middle) => vec![Carried(super::Carried::Temperature)],
             Operation::MovePoints => vec![Position(Points::Moved)],
-            Operation::ClearKick | Operation::Gravity | Operation::Viscosity(_) => vec![Kick],
+            Operation::ClearKick | Operation::Gravity | Operation::Buoyancy | Operation::Viscosity(_) => vec![Kick],
             Operation::EstimateMiddle => vec![Projected, Kick],
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{self, Axes, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
+use super::{Buffer, Carried, Element, Operation, Points, Stage};
+use crate::case::{self, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -36,6 +36,8 @@ pub struct Plan {
     pub splitting: Splitting,
     /// Fluid comes and goes through the sides.
     pub through_flow: bool,
+    /// Scalar fields that the flow carries.
+    pub carried: Vec<Carried>,
     /// True of a flow in time; else `kick` is all there is to do, once.
     pub flows: bool,
 }
@@ -103,6 +105,7 @@ impl Plan {
             form: None,
             splitting: Splitting::Projection,
             through_flow: false,
+            carried: Vec::new(),
             flows: false,
         }
     }
@@ -123,6 +126,7 @@ impl Plan {
             form: Some(pressure.form),
             splitting: Splitting::Projection,
             through_flow: false,
+            carried: Vec::new(),
             flows: false,
         }
     }
@@ -134,7 +138,7 @@ impl Plan {
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
-        let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
+        let through_flow = case.flows_through();
         let standing = Points::Standing;
         let fits_faces =
             effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);
@@ -146,9 +150,30 @@ impl Plan {
         // What carries the velocity evaluates fits, and so do reports where no cells measure the divergence.
         let cells = effects.pressure.is_some() && !collocated;
         let mut setup = rows.setup(effects.advection.is_some() || !cells);
-        let mut drift = Vec::new();
+        let (carried, diffusing) = (case.carried(), case.diffusing());
+        // Half a step before the drift and half a step after: what is reported is of the time of the velocity.
+        let mut diffusion = Vec::new();
+        for &field in &diffusing {
+            for stage in [Stage::Start, Stage::Middle] {
+                diffusion.push(Diffuse(field, stage));
+                if field == Carried::Temperature && case.has_heat_flux() {
+                    diffusion.push(HeatWalls(stage));
+                }
+            }
+        }
+        let mut drift = diffusion.clone();
         match effects.advection.as_ref().map(|advection| advection.remap) {
-            None => drift.push(KeepVelocity),
+            None if case.velocity_changes() => drift.push(KeepVelocity),
+            None => {}
+            Some(_) if !carried.is_empty() => {
+                if case.velocity_changes() {
+                    drift.extend([FitVelocity(standing), FindDepartures, CarryVelocity]);
+                } else {
+                    setup.push(FitVelocity(standing));
+                    drift.push(FindDepartures);
+                }
+                drift.extend(carried.iter().flat_map(|&field| [FitScalar(field), CarryScalar(field)]));
+            }
             Some(Remap::Departure) => drift.extend([FitVelocity(standing), RemapDeparture]),
             Some(Remap::Forward) => {
                 let moved = Points::Moved;
@@ -159,9 +184,18 @@ impl Plan {
         }
         // Forces that reach the walls, whose velocity is then put back.
         let pushes_walls = collocated || effects.gravity.is_some();
-        let uniform: &[Operation] = if effects.gravity.is_some() { &[Gravity] } else { &[] };
-        let mut kick = vec![ClearKick];
-        kick.extend(uniform);
+        let mut weight = Vec::new();
+        if effects.gravity.is_some() {
+            weight.push(Gravity);
+        }
+        if effects.buoyancy.is_some() {
+            weight.push(Buoyancy);
+        }
+        let mut kick = diffusion;
+        if case.velocity_changes() {
+            kick.push(ClearKick);
+        }
+        kick.extend(&weight);
         if effects.viscosity.is_some() {
             kick.push(Viscosity(Stage::Start));
             if reflects {
@@ -169,11 +203,13 @@ impl Plan {
                 if pushes_walls {
                     kick.push(HoldWalls);
                 }
-                kick.extend(uniform);
+                kick.extend(&weight);
                 kick.push(Viscosity(Stage::Middle));
             }
         }
-        kick.push(Predict);
+        if case.velocity_changes() {
+            kick.push(Predict);
+        }
         if let Some(pressure) = &effects.pressure {
             kick.push(match pressure.form {
                 PressureForm::Conservative if fits_faces => DivergenceByFit,
@@ -205,6 +241,7 @@ impl Plan {
             form: effects.pressure.as_ref().map(|pressure| pressure.form),
             splitting,
             through_flow,
+            carried,
             flows: true,
         }
     }
@@ -234,6 +271,12 @@ impl Plan {
             }
             None => Vec::new(),
         }
+    }
+
+    /// True where some operation goes through the faces of the Voronoi cells.
+    pub fn has_faces(&self) -> bool {
+        let diffuses = |operation: &Operation| matches!(operation, Operation::Diffuse(..));
+        self.form == Some(PressureForm::Conservative) || self.kick.iter().any(diffuses)
     }
 
     /// The lists of points around each point that the search for the nearest point walks along: those across the faces

@@ -21,7 +21,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("spacing = 0.1\n", "", "bad.toml:5: cloud.spacing is missing: it must be a length above 0, m"),
     ("[fluid]\ndensity = 1.0\n", "", "bad.toml: fluid is missing: it must be a table with the key density"),
     ("kinematic = 0.01\n", "", "bad.toml:14: effects.viscosity.kinematic is missing: it must be a number above 0, m^2/s"),
-    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\" or \"p\"; with measure = \"error\" also \"velocity\""),
+    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\", \"p\", \"temperature\", \"tracer\""),
     // Kinds of values.
     ("spacing = 0.1", "spacing = \"fine\"", "bad.toml:7: cloud.spacing = \"fine\": must be a length above 0, m"),
     ("spacing = 0.1", "spacing = nan", "bad.toml:7: cloud.spacing = NaN: must be a length above 0, m; it is not finite"),
@@ -65,7 +65,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("height = 1.5", "height = 1.5\nperiodic = \"z\"", "bad.toml:5: domain.periodic = \"z\": must be \"none\", \"x\", \"y\" or \"both\""),
     ("height = 1.5", "height = 1.5\nperiodic = \"y\"", "bad.toml:12: boundaries.top.velocity = [1.0, 0.0]: the domain repeats along y (domain.periodic), so that there is no wall; leave it out"),
     ("height = 1.5", "height = 1.5\nperiodic = \"x\"", "bad.toml:3: domain.width = 1.0: must be above 1.1"),
-    ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"poiseuille\"", "bad.toml:15: exact.solution = \"poiseuille\": must be \"taylor_green\" or \"kovasznay\""),
+    ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"stokes\"", "bad.toml:15: exact.solution = \"stokes\": must be \"taylor_green\", \"kovasznay\""),
     ("radius = 2.8", "radius = 2.8\n[exact]\nspeed = 1.0", "bad.toml:15: exact.speed is not a key; [exact] has solution"),
     ("radius = 2.8", "radius = 2.8\n[exact]\nsolution = \"kovasznay\"", "bad.toml:11: boundaries.top.velocity = [1.0, 0.0]: the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them"),
     ("top.velocity = [1.0, 0.0]\n", "[exact]\nsolution = \"taylor_green\"\n", "bad.toml:12: exact.solution = \"taylor_green\": repeats along x and y: it needs domain.periodic = \"both\""),
@@ -90,7 +90,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("value = -0.2", "value = 0", "bad.toml:29: expect.u_min.value = 0: must be a number other than 0 (its error is relative)"),
     ("value = -0.2", "value = -0.2\nprofile = \"profile.csv\"", "bad.toml:30: expect.u_min.profile = \"profile.csv\": belongs to the measure profile"),
     ("value = -0.2", "value = -0.2\ncolumn = \"u\"", "bad.toml:30: expect.u_min.column = \"u\": belongs to the measure profile"),
-    ("profile = \"profile.csv\"\n", "value = 1.0\n", "bad.toml:36: expect.u_all.value = 1.0: belongs to the measures minimum and maximum"),
+    ("profile = \"profile.csv\"\n", "value = 1.0\n", "bad.toml:36: expect.u_all.value = 1.0: belongs to the measures minimum, maximum and slope"),
     ("profile = \"profile.csv\"\ncolumn = \"u\"\n", "", "bad.toml:32: expect.u_all.profile is missing: it must be the path of a CSV file, from the case file's folder"),
     ("\"profile.csv\"", "\"none.csv\"", "bad.toml:36: expect.u_all.profile = \"none.csv\": none.csv: no such file"),
     ("\"profile.csv\"", "\".\"", "a folder, where a file was expected"),
@@ -105,7 +105,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("tolerance = 0.01\nsource = \"a paper\"\n[", "tolerance = 0.01\nsource = \"\"\n[", "bad.toml:31: expect.u_min.source = \"\": must be a line that says where the value was published"),
     ("line = { x = 0.5 }\nmeasure = \"minimum\"", "measure = \"minimum\"", "bad.toml:25: expect.u_min.line is missing: it must be { x = NUMBER } or { y = NUMBER }"),
     ("measure = \"minimum\"", "measure = \"error\"", "bad.toml:28: expect.u_min.measure = \"error\": there is no exact solution: the table exact is absent"),
-    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "component = \"velocity\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:26: expect.u_min.component = \"velocity\": belongs to the measure error"),
+    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "component = \"velocity\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:26: expect.u_min.component = \"velocity\": belongs to other measures"),
     ("[expect.u_min]", "[expect.\"u min\"]", "bad.toml:25: expect.\"u min\" = {"),
 ];
 

@@ -9,6 +9,7 @@ mod random;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 
+mod carried;
 mod clouds;
 mod energy;
 mod exact;

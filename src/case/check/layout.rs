@@ -1,7 +1,7 @@
 //! Checks of the domain, its walls, the points and their neighbourhoods.
 
 use super::super::fault::Fault;
-use super::super::{Arrangement, Case, Cloud, Domain};
+use super::super::{Arrangement, Case, Cloud, Domain, Solution};
 use super::require;
 
 /// Most points of a cloud.
@@ -138,7 +138,7 @@ fn check_walls(case: &Case) -> Result<(), Fault> {
         let reason = if periodic {
             let axis = ["x", "y"][across];
             format!("the domain repeats along {axis} (domain.periodic), so that there is no wall; leave it out")
-        } else if case.exact.is_some() {
+        } else if case.exact.is_some() && !case.is_solved_by(Solution::Couette) {
             "the exact solution (exact.solution) prescribes the velocity of every wall; leave out one of them"
                 .to_owned()
         } else if velocity[across] != 0.0 {
