@@ -1,14 +1,15 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
 mod carried;
+mod sides;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
-use crate::cloud::{Cloud, CloudError, grid, shortest};
+use crate::cloud::{Cloud, CloudError, OpenPoint, Side, grid, open_points, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
@@ -32,6 +33,8 @@ pub struct Scene {
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
+    /// The points of slip sides and outlets.
+    open: Vec<OpenPoint>,
 }
 
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
@@ -71,6 +74,8 @@ pub struct Constants {
     pub max_iterations: u32,
     /// Rounding units of the diagonal's product below which no pressure residual falls.
     pub floor: f64,
+    /// Whether the pressure is found but for a constant: not where fluid leaves at pressure 0.
+    pub singular: bool,
     /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
     pub shift: f64,
 }
@@ -107,12 +112,15 @@ impl Scene {
         let cells = plan.has_faces().then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
         let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
+        let opens = plan.buffers().contains(&Buffer::OpenRow);
+        let open = if opens { open_points(&cloud, &case.boundaries, radius) } else { Vec::new() };
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
+            open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
         };
@@ -136,13 +144,18 @@ impl Scene {
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
-            shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
+            singular: !plan.outlets,
+            shift: match conservative {
+                true if plan.outlets => 0.0,
+                true => 4.0,
+                false => -4.0 / cloud.spacing.powi(2),
+            },
         };
         if let Some(buoyancy) = &case.effects.buoyancy {
             constants.lift = -buoyancy.expansion * constants.gravity;
             constants.reference_temperature = buoyancy.reference;
         }
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes, open })
     }
 
     /// The Voronoi cells of the pressure; `None` unless its form is conservative.
@@ -153,6 +166,13 @@ impl Scene {
     /// The flux out of the cells; `None` unless the plan fits it.
     pub fn fluxes(&self) -> Option<&Fluxes> {
         self.fluxes.as_ref()
+    }
+
+    /// True of a point where fluid leaves at pressure 0.
+    pub fn is_outlet(&self, point: usize) -> bool {
+        let sides = point.checked_sub(self.cloud.interior).and_then(|point| self.cloud.sides.get(point));
+        let leaves = |side: &Side| side.wall(&self.case.boundaries).kind == SideKind::Outlet;
+        self.plan.outlets && sides.is_some_and(|sides| sides.iter().any(leaves))
     }
 
     /// The velocity at every point that a run begins with, m/s: the exact solution's, or rest between the walls.
@@ -214,8 +234,12 @@ impl Scene {
                 let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
+            if self.exact.is_none() {
+                data.push((Buffer::WallFlux, self.scalars(&sides::wall_flux(self, cells), 0.0)));
+            }
         }
         data.extend(carried::initial(self, &volume));
+        data.extend(sides::rows(self, &self.open));
         data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
@@ -250,6 +274,10 @@ impl Scene {
             (0..slots).for_each(|slot| neighbour[at(point, slot)] = own as u32);
         }
         for point in 0..self.sizes.points {
+            // The pressure is known there: no equation.
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, face)) in cells.faces(point).enumerate() {
                 neighbour[at(point, slot)] = other as u32;
                 weight[at(point, slot)] = face;
@@ -275,6 +303,9 @@ impl Scene {
             (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);
         }
         for (point, count) in count.iter_mut().enumerate().take(self.sizes.points) {
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, factor)) in fluxes.row(point).enumerate() {
                 points[at(point, slot, slots)] = other as u32;
                 row[at(point, slot, 2 * slots)] = factor.x;

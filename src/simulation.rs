@@ -419,7 +419,8 @@ impl Run<'_> {
         if self.scene.plan.form.is_some()
             && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
         {
-            let mean = values[..points].iter().sum::<f64>() / points as f64;
+            let singular = self.scene.constants.singular;
+            let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
         let mut carried = Vec::new();

@@ -1,6 +1,6 @@
 //! What follows from a case as a whole.
 
-use super::{Case, Effects, SideName, Solution};
+use super::{Case, Effects, SideKind, SideName, Solution};
 
 impl SideName {
     pub fn word(self) -> &'static str {
@@ -26,9 +26,19 @@ impl Case {
         self.exact.as_ref().is_some_and(|exact| exact.solution == solution)
     }
 
-    /// True where fluid comes and goes through the sides and a pressure has to know.
+    /// True where fluid comes and goes through the sides at a prescribed velocity and a pressure has to know.
     pub fn flows_through(&self) -> bool {
-        self.is_solved_by(Solution::Kovasznay)
+        self.is_solved_by(Solution::Kovasznay) || self.has_side(SideKind::Inlet)
+    }
+
+    /// True where some side is of this kind.
+    pub fn has_side(&self, kind: SideKind) -> bool {
+        self.boundaries.each().iter().any(|(_, wall)| wall.kind == kind)
+    }
+
+    /// True where the velocity on some side follows that of the fluid inside.
+    pub fn has_open_sides(&self) -> bool {
+        self.has_side(SideKind::Slip) || self.has_side(SideKind::Outlet)
     }
 
     /// True where heat flows through a side at a prescribed rate.

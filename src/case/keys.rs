@@ -20,6 +20,8 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("cloud.seed", "a whole number from 0"),
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
+    ("boundaries.*.kind", r#""wall", "slip", "inlet" or "outlet""#),
+    ("boundaries.*.profile", r#""uniform" or "parabola""#),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
     ("boundaries.*.temperature", "a number, K"),
     ("boundaries.*.heat_flux", "a number, K m/s, above 0 into the domain"),
@@ -175,7 +177,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 15] = [
+        let keys: [(&str, &[&str]); 17] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
@@ -189,6 +191,8 @@ mod tests {
             ("effects.pressure.solver", words::<Solver>()),
             ("effects.advection.remap", words::<Remap>()),
             ("effects.tracers.shape", words::<Shape>()),
+            ("boundaries.any.kind", words::<SideKind>()),
+            ("boundaries.any.profile", words::<SideProfile>()),
             ("expect.any.measure", words::<Measure>()),
             ("expect.any.side", words::<SideName>()),
         ];

@@ -146,16 +146,43 @@ impl Boundaries {
     }
 }
 
-/// A solid wall that moves along itself.
+/// One side: a solid wall that moves along itself unless its kind says otherwise.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
-    /// Velocity of the wall, m/s, tangent to it.
+    pub kind: SideKind,
+    /// Velocity of the wall, m/s, tangent to it; or that of the fluid that comes in, the largest of a parabola.
     pub velocity: [f64; 2],
+    /// How the velocity goes along the side.
+    pub profile: SideProfile,
     /// Temperature that is held there, K; a side that says nothing of heat lets none through.
     pub temperature: Option<f64>,
     /// Heat that flows in, over density and heat capacity, K m/s.
     pub heat_flux: Option<f64>,
+}
+
+/// What a side does to the velocity and to the pressure.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideKind {
+    /// The fluid has its velocity.
+    #[default]
+    Wall,
+    /// Nothing passes, and nothing drags: a plane of symmetry.
+    Slip,
+    /// Fluid comes in with its velocity.
+    Inlet,
+    /// Fluid leaves as it comes, at pressure 0.
+    Outlet,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideProfile {
+    #[default]
+    Uniform,
+    /// `4 s (1 - s)` times the velocity, `s` from 0 to 1 along the side.
+    Parabola,
 }
 
 /// How derivatives become sums over neighbours.
@@ -547,7 +574,8 @@ pub enum Measure {
     Error,
     /// The mean slope of the temperature across a side, into the domain, K/m.
     Slope,
-    /// What has been lost of a tracer since the beginning, over what there was.
+    /// What has been lost of a tracer since the beginning, over what there was; of the velocity, what comes in and does not go out, over
+    /// what comes in.
     Loss,
 }
 

@@ -126,6 +126,11 @@ fn name_in(operation: Operation, buffer: Buffer, scene: &Scene) -> String {
     {
         return "diffused".to_owned();
     }
+    if let Operation::OpenSides(kicked) = operation
+        && buffer == kicked.velocity()
+    {
+        return "followed".to_owned();
+    }
     if matches!(operation, Operation::RemapDeparture | Operation::FindDepartures) {
         let [around, around_count] = plan.around();
         if buffer == around || buffer == around_count {
@@ -169,8 +174,16 @@ pub(super) fn declare(bindings: &[Binding]) -> String {
 
 /// x and y of a point side by side.
 fn interleaved(buffer: Buffer) -> bool {
-    let none =
-        Sizes { points: 0, interior: 0, capacity: 0, face_capacity: 0, flux_capacity: 0, cells: 0, coefficients: 0 };
+    let none = Sizes {
+        points: 0,
+        interior: 0,
+        capacity: 0,
+        face_capacity: 0,
+        flux_capacity: 0,
+        open_capacity: 0,
+        cells: 0,
+        coefficients: 0,
+    };
     buffer.per_point(&none) == Some(2)
 }
 

@@ -92,6 +92,7 @@ impl Memory {
                 | Buffer::FaceNeighbours
                 | Buffer::FluxPoints
                 | Buffer::DepartureNearest
+                | Buffer::OpenPoints
                 | Buffer::CellPoints(_)
         ) {
             return Ok(());

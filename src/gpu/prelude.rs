@@ -89,6 +89,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
         ("FLUX_CAPACITY", sizes.flux_capacity),
+        ("OPEN_CAPACITY", sizes.open_capacity),
         ("AROUND_CAPACITY", scene.plan.around_capacity(sizes)),
         ("CELLS", sizes.cells),
         ("CELLS_X", constants.grid.cells[0] as usize),
@@ -145,6 +146,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));
     }
+    line(&mut text, format_args!("const SINGULAR: bool = {};", constants.singular));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");

@@ -142,6 +142,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::CorrectByFit => once(stage!("correct_by_fit", Points)),
         Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
         Operation::HoldWalls => once(stage!("hold_walls", Points)),
+        Operation::OpenSides(_) => once(stage!("open_sides", Points)),
         Operation::Reflect => once(stage!("reflect", Points)),
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::line::TEMPERATURE;
-use super::loss::amounts;
+use super::loss::{amounts, flows};
 use super::slope::mean_slope;
 use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
@@ -62,6 +62,10 @@ pub fn evaluate(
                     let field = snapshot.carried(TEMPERATURE);
                     let value = mean_slope(case, side, field)?;
                     let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
+                }
+                Measure::Loss if row.component == Component::Velocity => {
+                    let [reference, value] = flows(&sampler, case, &snapshot.velocity);
                     Found { position: None, value, reference, difference: (value - reference).abs() }
                 }
                 Measure::Loss => {

@@ -53,6 +53,15 @@ pub enum Buffer {
     FluxCount,
     /// Volume flux out of every cell through the walls that it has a piece of, m^2/s. Through-flow alone.
     WallFlux,
+    /// Points whose velocities make up that of a boundary point which follows the fluid, blocked, `open_capacity` slots; unused slots
+    /// hold the point itself. Slip sides and outlets alone.
+    OpenPoints,
+    /// Their shares, no unit, blocked; zero in unused slots.
+    OpenRow,
+    /// Slots of `OpenPoints` in use: none at any other point.
+    OpenCount,
+    /// What is taken out of that velocity: the normal of a slip side, else zero; interleaved.
+    OpenNormal,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
     /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
@@ -143,6 +152,10 @@ impl Buffer {
             Buffer::FluxRow => ("flux_row", None),
             Buffer::FluxCount => ("flux_count", None),
             Buffer::WallFlux => ("wall_flux", None),
+            Buffer::OpenPoints => ("open_points", None),
+            Buffer::OpenRow => ("open_row", None),
+            Buffer::OpenCount => ("open_count", None),
+            Buffer::OpenNormal => ("open_normal", None),
             Buffer::Normal => ("normal", None),
             Buffer::LaplacianRow => ("laplacian_row", None),
             Buffer::GradientRow => ("gradient_row", None),
@@ -194,6 +207,8 @@ impl Buffer {
             | Buffer::FaceCount
             | Buffer::FluxPoints
             | Buffer::FluxCount
+            | Buffer::OpenPoints
+            | Buffer::OpenCount
             | Buffer::DepartureNearest => Element::Index,
             _ => Element::Real,
         }
@@ -212,10 +227,12 @@ impl Buffer {
             | Buffer::PressureKick
             | Buffer::Reported
             | Buffer::Departure
+            | Buffer::OpenNormal
             | Buffer::FieldGradient => 2,
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
+            Buffer::OpenPoints | Buffer::OpenRow => sizes.open_capacity,
             Buffer::FluxPoints => sizes.flux_capacity,
             Buffer::FluxRow => 2 * sizes.flux_capacity,
             Buffer::Factor(_) => entries(sizes.coefficients),

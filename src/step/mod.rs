@@ -30,7 +30,7 @@ mod rung;
 pub use buffer::{Buffer, Element, Points};
 pub use carried::Carried;
 pub use grid::Grid;
-pub use operation::{Operation, Stage};
+pub use operation::{Kicked, Operation, Stage};
 pub use plan::{Plan, Sizes};
 pub use rung::Rung;
 

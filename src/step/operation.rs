@@ -23,6 +23,26 @@ impl Stage {
     }
 }
 
+/// Which velocity it is, seen from the kick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Kicked {
+    Before,
+    /// In its middle: what is reported.
+    Within,
+    After,
+}
+
+impl Kicked {
+    /// Where it stands.
+    pub fn velocity(self) -> Buffer {
+        match self {
+            Kicked::Before => Buffer::Velocity,
+            Kicked::Within => Buffer::Projected,
+            Kicked::After => Buffer::Reflected,
+        }
+    }
+}
+
 /// One thing that an engine does to its arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum Operation {
@@ -100,6 +120,8 @@ pub enum Operation {
     CorrectByAdjoint,
     /// Gives the walls their velocity back.
     HoldWalls,
+    /// Gives the points of slip sides and outlets the velocity of the fluid before them.
+    OpenSides(Kicked),
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
 
@@ -151,6 +173,7 @@ impl Operation {
             Operation::CorrectByFit => "correct_by_fit",
             Operation::CorrectByAdjoint => "correct_by_adjoint",
             Operation::HoldWalls => "hold_walls",
+            Operation::OpenSides(_) => "open_sides",
             Operation::Reflect => "reflect",
             Operation::Average => "average",
             Operation::Gradient => "gradient",
@@ -235,6 +258,7 @@ impl Operation {
             Operation::CorrectByFit => with(sums(GradientRow), &[Pressure]),
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
+            Operation::OpenSides(_) => vec![OpenPoints, OpenRow, OpenCount, OpenNormal],
             Operation::Reflect => vec![Velocity, Projected, Kick],
             Operation::Average => with(means, &[Field]),
             Operation::Gradient => with(sums(GradientRow), &[Field]),
@@ -280,6 +304,7 @@ impl Operation {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]
             }
             Operation::DirectSolve => vec![Pressure],
+            Operation::OpenSides(kicked) => vec![kicked.velocity()],
             Operation::Reflect => vec![PressureKick, Reflected],
             Operation::Average => vec![FieldAverage],
             Operation::Gradient => vec![FieldGradient],

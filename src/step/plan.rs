@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Carried, Element, Operation, Points, Stage};
+use super::{Buffer, Carried, Element, Kicked, Operation, Points, Stage};
 use crate::case::{self, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
@@ -16,6 +16,8 @@ pub struct Sizes {
     pub face_capacity: usize,
     /// Most points that the flux out of a cell is made of.
     pub flux_capacity: usize,
+    /// Most points that the velocity of a point of a slip side or an outlet is made of.
+    pub open_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
     /// Coefficients of a fit.
@@ -36,6 +38,8 @@ pub struct Plan {
     pub splitting: Splitting,
     /// Fluid comes and goes through the sides.
     pub through_flow: bool,
+    /// Fluid leaves through some side, where the pressure is 0.
+    pub outlets: bool,
     /// Scalar fields that the flow carries.
     pub carried: Vec<Carried>,
     /// True of a flow in time; else `kick` is all there is to do, once.
@@ -105,6 +109,7 @@ impl Plan {
             form: None,
             splitting: Splitting::Projection,
             through_flow: false,
+            outlets: false,
             carried: Vec::new(),
             flows: false,
         }
@@ -126,6 +131,7 @@ impl Plan {
             form: Some(pressure.form),
             splitting: Splitting::Projection,
             through_flow: false,
+            outlets: false,
             carried: Vec::new(),
             flows: false,
         }
@@ -182,6 +188,10 @@ impl Plan {
                 drift.extend([FitVelocity(moved), RemapForward]);
             }
         }
+        let open = case.has_open_sides() && case.velocity_changes();
+        if open && effects.advection.is_some() {
+            drift.push(OpenSides(Kicked::Before));
+        }
         // Forces that reach the walls, whose velocity is then put back.
         let pushes_walls = collocated || effects.gravity.is_some();
         let mut weight = Vec::new();
@@ -202,6 +212,9 @@ impl Plan {
                 kick.push(EstimateMiddle);
                 if pushes_walls {
                     kick.push(HoldWalls);
+                }
+                if open {
+                    kick.push(OpenSides(Kicked::Within));
                 }
                 kick.extend(&weight);
                 kick.push(Viscosity(Stage::Middle));
@@ -231,8 +244,14 @@ impl Plan {
         if pushes_walls {
             kick.push(HoldWalls);
         }
+        if open {
+            kick.push(OpenSides(Kicked::Within));
+        }
         if reflects {
             kick.push(Reflect);
+            if open {
+                kick.push(OpenSides(Kicked::After));
+            }
         }
         Self {
             setup,
@@ -241,6 +260,7 @@ impl Plan {
             form: effects.pressure.as_ref().map(|pressure| pressure.form),
             splitting,
             through_flow,
+            outlets: case.has_side(case::SideKind::Outlet),
             carried,
             flows: true,
         }
@@ -283,7 +303,8 @@ impl Plan {
     /// where there are faces, else all neighbours; and how many of each list are in use.
     pub fn around(&self) -> [Buffer; 2] {
         match self.form {
-            Some(PressureForm::Conservative) => [Buffer::FaceNeighbours, Buffer::FaceCount],
+            // The cells of outlets have no faces.
+            Some(PressureForm::Conservative) if !self.outlets => [Buffer::FaceNeighbours, Buffer::FaceCount],
             _ => [Buffer::Neighbours(Points::Standing), Buffer::NeighbourCount(Points::Standing)],
         }
     }
@@ -291,7 +312,7 @@ impl Plan {
     /// Slots of those lists.
     pub fn around_capacity(&self, sizes: &Sizes) -> usize {
         match self.form {
-            Some(PressureForm::Conservative) => sizes.face_capacity,
+            Some(PressureForm::Conservative) if !self.outlets => sizes.face_capacity,
             _ => sizes.capacity,
         }
     }

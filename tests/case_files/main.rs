@@ -256,6 +256,31 @@ fn what_does_not_go_with_heat_and_tracers_is_named() {
             &[heat, "domain.periodic=x", "boundaries.left.heat_flux=1.0"],
             "boundaries.left.heat_flux: the domain repeats there",
         ),
+        (
+            &["effects.pressure.form=conservative", "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.0] }"],
+            "boundaries.left.kind: needs another side",
+        ),
+        (
+            &[
+                "effects.pressure.form=conservative",
+                "boundaries.left={ kind = 'inlet', velocity = [-1.0, 0.0] }",
+                "boundaries.right.kind=outlet",
+            ],
+            "boundaries.left.kind: needs boundaries.*.velocity of this side",
+        ),
+        (&[heat, "boundaries.right.kind=outlet"], "boundaries.right.kind: needs the pressure"),
+        (
+            &["effects.pressure.form=collocated", "boundaries.right.kind=outlet"],
+            "boundaries.right.kind: belongs to the conservative form",
+        ),
+        (
+            &["effects.pressure.form=conservative", "domain.periodic=x", "boundaries.right.kind=slip"],
+            "boundaries.right.kind: the domain repeats",
+        ),
+        (
+            &["effects.pressure.form=conservative", "boundaries.right={ kind = 'slip', velocity = [0.0, 1.0] }"],
+            "boundaries.right.kind: takes its velocity from the fluid",
+        ),
         (&["effects.heat.diffusivity=0.0"], "effects.heat.diffusivity: must be a number above 0"),
         (&[heat, "effects.advection.remap=forward"], "effects.advection.remap: carries the velocity alone"),
         (&[heat, "time.steady=0.1"], "time.steady: no effect changes the velocity"),

@@ -32,7 +32,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("[1.0, 0.0]", "[1.0]", "bad.toml:11: boundaries.top.velocity = [1.0]: must be two numbers [along x, along y], m/s"),
     ("[1.0, 0.0]", "[1.0, 0.0, 0.0]", "bad.toml:11: boundaries.top.velocity = [1.0, 0.0, 0.0]: must be two numbers"),
     ("[1.0, 0.0]", "[1.0, nan]", "bad.toml:11: boundaries.top.velocity[1] = NaN: must be two numbers [along x, along y], m/s; it is not finite"),
-    ("top.velocity = [1.0, 0.0]", "top = 1.0", "bad.toml:11: boundaries.top = 1.0: must be a table with keys among velocity"),
+    ("top.velocity = [1.0, 0.0]", "top = 1.0", "bad.toml:11: boundaries.top = 1.0: must be a table with keys among kind, velocity, profile"),
     ("report_every = 10", "report_every = -1", "bad.toml:24: output.report_every = -1: must be a whole number from 1"),
     ("report_every = 10", "report_every = 0", "bad.toml:24: output.report_every = 0: must be a whole number from 1"),
     ("report_every = 10", "pictures = 1", "bad.toml:24: output.pictures = 1: must be true or false"),

@@ -26,4 +26,5 @@ mod poisson;
 mod remap;
 mod repeatability;
 mod runs;
+mod sides;
 mod voronoi;

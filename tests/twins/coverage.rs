@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use stillpoint::step::{Carried, Operation, Points, Stage};
+use stillpoint::step::{Carried, Kicked, Operation, Points, Stage};
 
 use crate::scenes;
 
@@ -67,7 +67,10 @@ fn next(operation: Operation) -> Option<Operation> {
         DirectSolve => CorrectByFit,
         CorrectByFit => CorrectByAdjoint,
         CorrectByAdjoint => HoldWalls,
-        HoldWalls => Reflect,
+        HoldWalls => OpenSides(Kicked::Before),
+        OpenSides(Kicked::Before) => OpenSides(Kicked::Within),
+        OpenSides(Kicked::Within) => OpenSides(Kicked::After),
+        OpenSides(Kicked::After) => Reflect,
         Reflect => Average,
         Average => Gradient,
         Gradient => Laplacian,

@@ -132,6 +132,15 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     scenes.push(("heat, buoyancy and tracers", Arc::new(of(&heated()))));
     let turning = turning(14, &["cloud.arrangement=jittered"]);
     scenes.push(("a rotation that is prescribed", Arc::new(Scene::build(&turning).expect("a scene"))));
+    let solvers =
+        ["conjugate_gradient", "bicgstab", "direct"].map(|solver| format!("effects.pressure.solver={solver}"));
+    for (name, solver) in
+        ["inlet, outlet and slip, cg", "inlet, outlet and slip, bicgstab", "inlet, outlet and slip, direct"]
+            .into_iter()
+            .zip(&solvers)
+    {
+        scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
+    }
     scenes.push(("a channel that repeats", Arc::new(channel())));
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
@@ -160,6 +169,16 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
 pub fn of(changes: &[&str]) -> Scene {
     Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
 }
+
+/// Fluid comes in on the left, slides along the top, and leaves on the right; a tracer goes with it.
+const OPEN: [&str; 6] = [
+    "cloud.arrangement=jittered",
+    "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.1], profile = 'parabola' }",
+    "boundaries.right={ kind = 'outlet' }",
+    "boundaries.top={ kind = 'slip' }",
+    GRAVITY,
+    "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
 
 /// A cavity heated from two sides, in which two tracers are carried.
 fn heated() -> [&'static str; 9] {

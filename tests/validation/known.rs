@@ -22,7 +22,7 @@ fn measured(name: &str, overrides: &[&str]) -> Vec<ExpectationResult> {
     evaluate(&case, &outcome.snapshot, &profiles(&case).expect("profiles")).expect("measurements")
 }
 
-const CASES: [&str; 8] = [
+const CASES: [&str; 9] = [
     "taylor_green.toml",
     "kovasznay.toml",
     "derivatives.toml",
@@ -31,6 +31,7 @@ const CASES: [&str; 8] = [
     "poiseuille.toml",
     "conduction.toml",
     "rotating_tracer.toml",
+    "channel.toml",
 ];
 
 #[test]
@@ -58,6 +59,19 @@ fn errors_beyond_their_tolerance_are_missed() {
         ("rotating_tracer.toml", "method.order=2"),
     ] {
         assert!(measured(name, &[spoiled]).iter().all(|row| !row.pass), "{name} with {spoiled}");
+    }
+}
+
+/// A channel that slips has no parabola, and one of another viscosity another pressure.
+#[test]
+fn a_channel_that_is_not_poiseuilles_is_missed() {
+    for (spoiled, missed) in [
+        ("boundaries.left.profile=uniform", &["u_middle", "u_outlet", "pressure"][..]),
+        ("effects.viscosity.kinematic=0.06", &["pressure"]),
+    ] {
+        let rows = measured("channel.toml", &[spoiled, "cloud.spacing=0.0625"]);
+        let found: Vec<_> = rows.iter().filter(|row| !row.pass).map(|row| row.name.as_str()).collect();
+        assert!(missed.iter().all(|name| found.contains(name)), "{spoiled}: {found:?} alone");
     }
 }
 

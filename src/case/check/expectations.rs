@@ -1,7 +1,7 @@
 //! Checks of the published values that a run is held to.
 
 use super::super::fault::{self, Fault};
-use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, Shape, Solution};
+use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, Shape, SideKind, Solution};
 use super::is_line;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
@@ -89,15 +89,20 @@ fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Stri
             None => Ok(()),
         };
     }
-    let over_all = match measure {
-        Measure::Slope => Some(Component::Temperature),
-        Measure::Loss => Some(Component::Tracer),
+    let over_all: Option<(&[Component], &str)> = match measure {
+        Measure::Slope => Some((&[Component::Temperature], "must be \"temperature\" with this measure")),
+        Measure::Loss => {
+            Some((&[Component::Tracer, Component::Velocity], "must be \"tracer\" or \"velocity\" with this measure"))
+        }
         _ => None,
     };
-    if let Some(own) = over_all {
-        if *component != own {
-            let word = if own == Component::Tracer { "tracer" } else { "temperature" };
-            return Err(Fault::reason(&key("component"), format!("must be {word:?} with this measure")));
+    if let Some((own, reason)) = over_all {
+        if !own.contains(component) {
+            return Err(Fault::reason(&key("component"), reason));
+        }
+        if *component == Component::Velocity && !case.has_side(SideKind::Inlet) {
+            let reason = "is what comes in and does not go out: no side has boundaries.*.kind = \"inlet\"";
+            return Err(Fault::reason(&key("measure"), reason));
         }
         return match line {
             Some(_) => Err(Fault::reason(&key("line"), "belongs to the measures minimum, maximum and profile")),

@@ -5,6 +5,7 @@ mod effects;
 mod exact;
 mod expectations;
 mod layout;
+mod sides;
 
 use super::fault::Fault;
 use super::{Case, Problem};
@@ -21,6 +22,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
     effects::check(case)?;
+    sides::check(case)?;
     carried::check(case)?;
     exact::check(case)?;
     if case.problem() == Problem::Flow {

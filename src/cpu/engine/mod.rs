@@ -127,6 +127,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::CorrectByFit
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
+            | Operation::OpenSides(_)
             | Operation::Reflect => self.kick(operation, clock),
             Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence

@@ -17,6 +17,7 @@ pub mod lists;
 pub mod measure;
 pub mod moments;
 pub mod neighbours;
+pub mod open_sides;
 pub mod pressure;
 pub mod remap;
 pub mod rows;

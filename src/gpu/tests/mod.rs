@@ -92,6 +92,16 @@ fn heated_scene() -> Scene {
     scene_of(&(CAVITY.to_owned() + tracer), &changes)
 }
 
+/// Fluid comes in on one side, leaves on another, and slides along a third.
+fn channel_scene() -> Scene {
+    let changes = [
+        "boundaries.left={ kind = \"inlet\", velocity = [1.0, 0.0] }",
+        "boundaries.right={ kind = \"outlet\" }",
+        "boundaries.bottom={ kind = \"slip\" }",
+    ];
+    scene_of(CAVITY, &changes)
+}
+
 /// Fluid comes and goes through the sides.
 fn open_scene() -> Scene {
     scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + WAKE), &[FIT])
