@@ -1,5 +1,7 @@
 //! One run: steps until the end, a steady state, a request to stop, or trouble.
 
+mod prices;
+
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -14,6 +16,8 @@ use crate::known::Known;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
+
+pub use prices::{Prices, prices};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -141,7 +145,7 @@ impl Run<'_> {
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit);
+        self.limit = self.stability_limit()?;
         let ladder = self.ladder()?;
         let setup = started.elapsed();
         if !self.scene.plan.flows {
@@ -154,6 +158,7 @@ impl Run<'_> {
         let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
         let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
         let mut dt = self.step(fastest(&begun), 0.0)?;
+        self.begin_steps(dt)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
         let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
@@ -216,6 +221,9 @@ impl Run<'_> {
             }
             let next = self.step(wall_speed.max(row.max_speed), now)?;
             self.change_step(next / dt)?;
+            if next != dt {
+                self.begin_steps(next)?;
+            }
             dt = next;
         };
         let stepping = started.elapsed();
@@ -312,6 +320,12 @@ impl Run<'_> {
         }
     }
 
+    /// What depends on the length of a step, before the first one of it.
+    fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = self.scene.clock(dt);
+        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
+    }
+
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
@@ -357,6 +371,11 @@ impl Run<'_> {
             self.engine.write(Buffer::PressureKick, &Data::Real(mean))?;
         }
         Ok(())
+    }
+
+    /// Longest step that viscosity and diffusion allow, s.
+    fn stability_limit(&mut self) -> Result<f64, EngineError> {
+        Ok(self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit))
     }
 
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on

@@ -22,6 +22,7 @@
 
 mod buffer;
 mod carried;
+mod effect;
 mod grid;
 mod operation;
 mod plan;
@@ -29,6 +30,7 @@ mod rung;
 
 pub use buffer::{Buffer, Element, Points};
 pub use carried::Carried;
+pub use effect::Effect;
 pub use grid::Grid;
 pub use operation::{Kicked, Operation, Stage};
 pub use plan::{Plan, Sizes};

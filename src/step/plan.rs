@@ -29,6 +29,8 @@ pub struct Sizes {
 pub struct Plan {
     /// Done once, in order.
     pub setup: Vec<Operation>,
+    /// Done whenever the length of a step changes: what of the drift depends on nothing else. Of a prescribed velocity alone.
+    pub on_step: Vec<Operation>,
     /// The drift: carries the velocity along the flow. Empty without advection but for `KeepVelocity`.
     pub drift: Vec<Operation>,
     /// The kick: forces, pressure, correction.
@@ -104,6 +106,7 @@ impl Plan {
         }
         Self {
             setup,
+            on_step: Vec::new(),
             drift: Vec::new(),
             kick,
             form: None,
@@ -126,6 +129,7 @@ impl Plan {
         let kick = vec![solve_by(pressure.solver())];
         Self {
             setup,
+            on_step: Vec::new(),
             drift: Vec::new(),
             kick,
             form: Some(pressure.form),
@@ -167,7 +171,7 @@ impl Plan {
                 }
             }
         }
-        let mut drift = diffusion.clone();
+        let (mut on_step, mut drift) = (Vec::new(), diffusion.clone());
         match effects.advection.as_ref().map(|advection| advection.remap) {
             None if case.velocity_changes() => drift.push(KeepVelocity),
             None => {}
@@ -176,7 +180,7 @@ impl Plan {
                     drift.extend([FitVelocity(standing), FindDepartures, CarryVelocity]);
                 } else {
                     setup.push(FitVelocity(standing));
-                    drift.push(FindDepartures);
+                    on_step.push(FindDepartures);
                 }
                 drift.extend(carried.iter().flat_map(|&field| [FitScalar(field), CarryScalar(field)]));
             }
@@ -255,6 +259,7 @@ impl Plan {
         }
         Self {
             setup,
+            on_step,
             drift,
             kick,
             form: effects.pressure.as_ref().map(|pressure| pressure.form),
@@ -268,7 +273,7 @@ impl Plan {
 
     /// Every operation, setup first.
     pub fn operations(&self) -> impl Iterator<Item = Operation> + '_ {
-        self.setup.iter().chain(&self.drift).chain(&self.kick).copied()
+        self.setup.iter().chain(&self.on_step).chain(&self.drift).chain(&self.kick).copied()
     }
 
     /// The velocity that moves the points.

@@ -5,8 +5,8 @@ use stillpoint::cpu;
 use stillpoint::exact::Exact;
 use stillpoint::measure::FieldError;
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Outcome, simulate};
-use stillpoint::step::{Buffer, Carried, Operation, Stage};
+use stillpoint::simulation::{Outcome, prices, simulate};
+use stillpoint::step::{Buffer, Carried, Effect, Operation, Stage};
 
 use crate::bench::{Bench, order};
 use crate::cases::{ARRANGEMENTS, cavity, cavity_of, turning};
@@ -149,6 +149,29 @@ fn warm_fluid_rises() {
     assert!(near(0.15) > 0.0 && near(0.85) < 0.0);
 }
 
+/// A tracer that a prescribed velocity carries pays for nothing else: a step takes at most a third of one with everything on the
+/// same points, and the prices of the operations add up to what a step takes.
+#[test]
+fn a_scene_pays_for_the_effects_it_calls_for() {
+    let priced = |case: &Case| {
+        let scene = Scene::build(case).expect("a scene").into();
+        let mut engine = cpu::double(&scene).expect("an engine");
+        let prices = prices(&scene, engine.as_mut()).expect("prices");
+        assert!((prices.sum() - prices.step).abs() < 0.15 * prices.step, "{prices:?}");
+        assert!((prices.effects().values().sum::<f64>() - prices.sum()).abs() < 1e-9 * prices.step);
+        (prices.step, prices.effects().into_keys().collect::<Vec<_>>())
+    };
+    let tracer = "effects.tracers=[{ name = 'c', shape = 'gaussian', centre = [0.5, 0.75], radius = 0.1 }]";
+    let weight = ["effects.gravity.acceleration=[0.0, -1.0]", "effects.buoyancy.expansion=1.0", HEAT, tracer];
+    let cloud = ["cloud.arrangement=jittered", "boundaries.left.temperature=1.0", "time.step=0.002"];
+    let (all, effects) = priced(&cavity_of(40, &[&weight[..], &cloud].concat()));
+    use Effect::{Advection, Buoyancy, Gravity, Heat, Pressure, Step, Tracers, Viscosity};
+    assert_eq!(effects, [Advection, Heat, Tracers, Gravity, Buoyancy, Viscosity, Pressure, Step]);
+    let (alone, effects) = priced(&turning(40, &["cloud.arrangement=jittered"]));
+    assert_eq!(effects, [Tracers]);
+    assert!(3.0 * alone < all, "{alone:e} s of {all:e} s");
+}
+
 /// Every key of heat, buoyancy and tracers changes the answer.
 #[test]
 fn every_option_of_what_is_carried_changes_it() {
@@ -222,7 +245,9 @@ fn an_absent_field_has_no_operation_and_no_array() {
     let kick: &[Operation] = &[];
     assert_eq!(turning.kick, kick);
     let own = Carried::Tracer(0);
-    assert_eq!(turning.drift, [Operation::FindDepartures, Operation::FitScalar(own), Operation::CarryScalar(own)]);
+    // The velocity stays, and so do the departures, while the step is as long.
+    assert_eq!(turning.on_step, [Operation::FindDepartures]);
+    assert_eq!(turning.drift, [Operation::FitScalar(own), Operation::CarryScalar(own)]);
     for absent in [Buffer::FaceWeight, Buffer::Kick, Buffer::Pressure, Buffer::LaplacianRow, Buffer::Reach(own)] {
         assert!(!turning.buffers().contains(&absent), "{absent:?}");
     }

@@ -102,6 +102,10 @@ fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
         }
     };
     through(&scene.plan.setup, engines);
+    through(&scene.plan.on_step, engines);
+    for &operation in &scene.plan.on_step {
+        engines.double.apply(operation, &clock).expect("what a step begins with");
+    }
     if !scene.plan.flows {
         return through(&scene.plan.kick, engines);
     }

@@ -22,7 +22,7 @@ fn measured(name: &str, overrides: &[&str]) -> Vec<ExpectationResult> {
     evaluate(&case, &outcome.snapshot, &profiles(&case).expect("profiles")).expect("measurements")
 }
 
-const CASES: [&str; 9] = [
+const CASES: [&str; 10] = [
     "taylor_green.toml",
     "kovasznay.toml",
     "derivatives.toml",
@@ -32,6 +32,7 @@ const CASES: [&str; 9] = [
     "conduction.toml",
     "rotating_tracer.toml",
     "channel.toml",
+    "stokes_cavity.toml",
 ];
 
 #[test]
@@ -57,6 +58,7 @@ fn errors_beyond_their_tolerance_are_missed() {
         ("poiseuille.toml", "cloud.spacing=0.0625"),
         ("conduction.toml", "cloud.spacing=0.0625"),
         ("rotating_tracer.toml", "method.order=2"),
+        ("stokes_cavity.toml", "cloud.spacing=0.125"),
     ] {
         assert!(measured(name, &[spoiled]).iter().all(|row| !row.pass), "{name} with {spoiled}");
     }
