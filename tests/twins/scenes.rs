@@ -171,7 +171,7 @@ pub fn of(changes: &[&str]) -> Scene {
 }
 
 /// Fluid comes in on the left, slides along the top, and leaves on the right; a tracer goes with it.
-const OPEN: [&str; 6] = [
+pub const OPEN: [&str; 6] = [
     "cloud.arrangement=jittered",
     "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.1], profile = 'parabola' }",
     "boundaries.right={ kind = 'outlet' }",
@@ -181,7 +181,7 @@ const OPEN: [&str; 6] = [
 ];
 
 /// A cavity heated from two sides, in which two tracers are carried.
-fn heated() -> [&'static str; 9] {
+pub fn heated() -> [&'static str; 9] {
     [
         "cloud.arrangement=jittered",
         GRAVITY,
