@@ -24,6 +24,8 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
+    /// With points where the pressure is 0.
+    Grounded(Llt<usize, f64>),
     General {
         lu: Box<Lu<usize, f64>>,
         rows: Vec<Vec<(usize, f64)>>,
@@ -40,7 +42,10 @@ impl DirectSolver {
     /// Factorises the matrix of the scene's form. `read` gives the arrays that an engine has assembled.
     pub fn new(scene: &Scene, read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>) -> Result<Self, EngineError> {
         if let Some(cells) = scene.cells() {
-            return Self::conservative(cells);
+            return match scene.constants.singular {
+                true => Self::conservative(cells),
+                false => Self::grounded(cells, &|point| scene.is_outlet(point)),
+            };
         }
         let rows = collocated_rows(scene, read)?;
         if scene.plan.moves() {
@@ -61,6 +66,20 @@ impl DirectSolver {
         }
         let matrix = sparse(kept, &entries)?;
         matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Symmetric(factor))).map_err(failed)
+    }
+
+    /// The same where the pressure is 0 at some points.
+    fn grounded(cells: &Cells, held: &dyn Fn(usize) -> bool) -> Result<Self, EngineError> {
+        let mut entries = Vec::with_capacity(4 * cells.volume.len());
+        for point in 0..cells.volume.len() {
+            let free = !held(point);
+            let own = if free { cells.faces(point).map(|(_, weight)| weight).sum() } else { 1.0 };
+            entries.push(Triplet::new(point, point, own));
+            let lower = cells.faces(point).filter(|&(other, _)| free && other < point && !held(other));
+            entries.extend(lower.map(|(other, weight)| Triplet::new(point, other, -weight)));
+        }
+        let matrix = sparse(cells.volume.len(), &entries)?;
+        matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Grounded(factor))).map_err(failed)
     }
 
     /// A matrix whose rows sum to zero, row by row: column and value.
@@ -107,7 +126,8 @@ impl DirectSolver {
                 pressure.push(0.0);
                 pressure
             }
-            Factor::Regular { lu, rows } => solve(lu.as_ref(), &source[..rows.len()]),
+            Factor::Regular { lu, rows } => return finite(solve(lu.as_ref(), &source[..rows.len()])),
+            Factor::Grounded(factor) => return finite(solve(factor, &source[..factor.ncols()])),
             Factor::General { lu, rows, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
@@ -117,15 +137,9 @@ impl DirectSolver {
                 pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
             }
         };
-        if !matches!(self.0, Factor::Regular { .. }) {
-            let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
-            pressure.iter_mut().for_each(|p| *p -= mean);
-        }
-        if pressure.iter().all(|p| p.is_finite()) {
-            Ok(pressure)
-        } else {
-            Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned()))
-        }
+        let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
+        pressure.iter_mut().for_each(|p| *p -= mean);
+        finite(pressure)
     }
 
     /// Root mean square of what a pressure leaves of the source, `b - A p` less its mean, as the iterative solvers measure
@@ -135,6 +149,7 @@ impl DirectSolver {
             (Factor::General { rows, .. } | Factor::Regular { rows, .. }, _) => {
                 source[point] - product(&rows[point], pressure)
             }
+            (Factor::Grounded(_), _) if scene.is_outlet(point) => source[point],
             (_, Some(cells)) => {
                 let own = pressure[point];
                 source[point] - cells.faces(point).map(|(other, weight)| weight * (own - pressure[other])).sum::<f64>()
@@ -143,8 +158,7 @@ impl DirectSolver {
         };
         let mut left: Vec<f64> = (0..scene.sizes.points).map(of).collect();
         let points = left.len() as f64;
-        let singular = !matches!(self.0, Factor::Regular { .. });
-        let mean = if singular { left.iter().sum::<f64>() / points } else { 0.0 };
+        let mean = if scene.constants.singular { left.iter().sum::<f64>() / points } else { 0.0 };
         left.iter_mut().for_each(|r| *r -= mean);
         if let Some(cells) = scene.cells() {
             left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);
@@ -154,6 +168,13 @@ impl DirectSolver {
             _ => 1.0,
         };
         unit * (left.iter().map(|r| r * r).sum::<f64>() / points).sqrt()
+    }
+}
+
+fn finite(pressure: Vec<f64>) -> Result<Vec<f64>, EngineError> {
+    match pressure.iter().all(|p| p.is_finite()) {
+        true => Ok(pressure),
+        false => Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned())),
     }
 }
 

@@ -1,5 +1,7 @@
 //! One run: steps until the end, a steady state, a request to stop, or trouble.
 
+mod prices;
+
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -15,6 +17,8 @@ use crate::motion;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
+
+pub use prices::{Prices, prices};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -104,11 +108,11 @@ pub enum SimulationError {
     )]
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
-    NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+    NotFinite { field: String, point: usize, x: f64, y: f64 },
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
-fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
+fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
     let columns = snapshot.columns();
     columns.iter().find_map(|column| {
         let found = |point| column.at(point).find(|(_, value)| !value.is_finite()).map(|(name, _)| (name, point));
@@ -122,8 +126,8 @@ const MOVING_STRETCH: u32 = 10;
 const MOVING_DIFFUSION: f64 = 0.1;
 /// Longest stretch of steps between two looks at the observer.
 const STRETCH: Duration = Duration::from_millis(250);
-/// Share of the viscous stability limit that a step uses.
-const VISCOUS_SAFETY: f64 = 0.8;
+/// Share of the stability limit of viscosity and diffusion that a step uses.
+const STABLE_SHARE: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -141,7 +145,7 @@ struct Run<'a> {
     scene: &'a Scene,
     engine: &'a mut dyn Engine,
     observer: &'a mut dyn Observer,
-    /// Largest stable step of the viscous term, s.
+    /// Longest step that viscosity and diffusion allow, s.
     limit: f64,
     warnings: Vec<String>,
     watch: Watch,
@@ -154,7 +158,7 @@ impl Run<'_> {
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.viscous_limit()?;
+        self.limit = self.stability_limit()?;
         let ladder = self.ladder()?;
         let setup = started.elapsed();
         if !self.scene.plan.flows {
@@ -167,6 +171,7 @@ impl Run<'_> {
         let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
         let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
         let mut dt = self.step(fastest(&begun), 0.0)?;
+        self.begin_steps(dt)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
         let every = self.scene.case.output.frame_every.unwrap_or(f64::INFINITY);
@@ -262,6 +267,9 @@ impl Run<'_> {
             }
             let next = self.step(wall_speed.max(row.max_speed), now)?;
             self.change_step(next / dt)?;
+            if next != dt {
+                self.begin_steps(next)?;
+            }
             dt = next;
         };
         let stepping = started.elapsed();
@@ -284,6 +292,7 @@ impl Run<'_> {
         };
         if let Some((field, point)) = not_finite(&snapshot) {
             let place = self.scene.cloud.position[point];
+            let field = field.to_owned();
             return Err(SimulationError::NotFinite { field, point, x: place.x, y: place.y });
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
@@ -359,7 +368,9 @@ impl Run<'_> {
         }
         if dt > self.limit && self.warnings.is_empty() {
             let limit = self.limit;
-            self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
+            let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= limit;
+            let name = if diffuses { "diffusion" } else { "viscosity" };
+            self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
         Ok(dt)
     }
@@ -377,6 +388,12 @@ impl Run<'_> {
         }
     }
 
+    /// What depends on the length of a step, before the first one of it.
+    fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = self.scene.clock(dt);
+        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
+    }
+
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
@@ -389,7 +406,14 @@ impl Run<'_> {
             let inside = vec![balance; self.scene.sizes.interior];
             self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
         }
-        for &operation in &self.scene.plan.kick {
+        // A carried field has its half step before the first drift anyway.
+        let forces = self
+            .scene
+            .plan
+            .kick
+            .iter()
+            .filter(|operation| !matches!(operation, Operation::Diffuse(..) | Operation::HeatWalls(_)));
+        for &operation in forces {
             self.engine.apply(operation, &clock)?;
         }
         Ok(())
@@ -415,6 +439,11 @@ impl Run<'_> {
             self.engine.write(Buffer::PressureKick, &Data::Real(mean))?;
         }
         Ok(())
+    }
+
+    /// Longest step that viscosity and diffusion allow, s.
+    fn stability_limit(&mut self) -> Result<f64, EngineError> {
+        Ok(self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit))
     }
 
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
@@ -446,7 +475,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(VISCOUS_SAFETY * 2.0 / radius)
+        Ok(STABLE_SHARE * 2.0 / radius)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
@@ -509,14 +538,22 @@ impl Run<'_> {
         if self.scene.plan.form.is_some()
             && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
         {
-            let mean = if moves { 0.0 } else { values[..points].iter().sum::<f64>() / points as f64 };
+            let singular = self.scene.constants.singular;
+            let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
             pressure = values[..points].iter().map(|p| p - mean).collect();
+        }
+        let mut carried = Vec::new();
+        for &field in &self.scene.plan.carried {
+            if let Data::Real(mut values) = self.engine.read(Buffer::Carried(field))? {
+                values.truncate(points);
+                carried.push((self.scene.case.field_name(field), values));
+            }
         }
         let mut position = self.scene.cloud.position.clone();
         if moves && let Data::Real(values) = self.engine.read(Buffer::Position(Points::Standing))? {
             position = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
         }
-        Ok(Snapshot { time, position, velocity, pressure, derivatives: None })
+        Ok(Snapshot { time, position, velocity, pressure, carried, derivatives: None })
     }
 }
 

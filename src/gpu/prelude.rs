@@ -93,6 +93,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
         ("FLUX_CAPACITY", sizes.flux_capacity),
+        ("OPEN_CAPACITY", sizes.open_capacity),
         ("AROUND_CAPACITY", scene.plan.around_capacity(sizes)),
         ("CELLS", sizes.cells),
         ("CELLS_X", constants.grid.cells[0] as usize),
@@ -136,7 +137,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CLEARANCE", travel::CLEARANCE * constants.spacing),
         ("BOUNCE_DISTANCE", scene.bounce_distance()),
         ("BOUNCE_RESTITUTION", collide::RESTITUTION),
-        ("SINGULAR", f64::from(u8::from(!scene.plan.moves()))),
+        ("TRACE", constants.trace),
+        ("REFERENCE_TEMPERATURE", constants.reference_temperature),
         ("LATTICE_DENSITY", constants.lattice.density),
         ("LATTICE_SPREAD", constants.lattice.spread),
         ("DIMENSIONS", DIMENSIONS),
@@ -159,11 +161,13 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("PERIOD", constants.period),
         ("PER_PERIOD", per_period),
         ("GRAVITY", constants.gravity),
+        ("LIFT", constants.lift),
     ];
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));
     }
     line(&mut text, format_args!("const MIRRORS: bool = {};", scene.plan.mirrors()));
+    line(&mut text, format_args!("const SINGULAR: bool = {};", constants.singular));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");

@@ -122,6 +122,10 @@ pub(super) fn end_step_stages(scene: &Scene) -> Vec<(Stage, Arrays)> {
     if scene.plan.buffers().contains(&Buffer::Pressure) {
         stages.push((sources::WATCH_PRESSURE, reading([Buffer::Pressure])));
     }
+    for &field in &scene.plan.carried {
+        let array = (Buffer::Carried(field), "carried".to_owned());
+        stages.push((sources::WATCH_CARRIED, [vec![array], Vec::new()]));
+    }
     stages.push((sources::END_STEP, reading([])));
     stages
 }
@@ -137,8 +141,7 @@ pub(super) fn measured_arrays(scene: &Scene) -> Arrays {
     ];
     let faces = [Buffer::FaceNeighbours, Buffer::FaceWeight, Buffer::FaceCount];
     let fluxes = [Buffer::FluxPoints, Buffer::FluxCount, Buffer::FluxRow, Buffer::WallFlux];
-    let fields =
-        [Buffer::Position(standing), Buffer::Volume, Buffer::Projected, Buffer::Reported, Buffer::Surface];
+    let fields = [Buffer::Position(standing), Buffer::Volume, Buffer::Projected, Buffer::Reported, Buffer::Surface];
     let used = scene.plan.buffers();
     reading(fits.into_iter().chain(faces).chain(fluxes).chain(fields).filter(|buffer| used.contains(buffer)))
 }

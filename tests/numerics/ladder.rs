@@ -34,7 +34,19 @@ fn groups() -> (Cloud, [std::ops::Range<usize>; 4]) {
     });
     let position = parts.concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    (Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO }, ranges)
+    let (normal, sides, filled) = (vec![], vec![], None);
+    let cloud = Cloud {
+        position,
+        interior,
+        pressured: interior,
+        filled,
+        normal,
+        sides,
+        spacing: 1.0,
+        size,
+        period: DVec2::ZERO,
+    };
+    (cloud, ranges)
 }
 
 fn unbounded() -> stillpoint::case::Case {

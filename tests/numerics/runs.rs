@@ -49,7 +49,7 @@ fn a_number_that_is_none_stops_the_run_names_its_place_and_keeps_the_last_good_s
             let mut case = cavity(&[splitting, "output.report_every=25", "time.end=20.0"]);
             match (pressure, &mut case.effects.pressure) {
                 ("none", absent) => *absent = None,
-                ("collocated", Some(pressure)) => pressure.form = stillpoint::case::PressureForm::Collocated,
+                ("collocated", Some(pressure)) => pressure.form = Some(stillpoint::case::PressureForm::Collocated),
                 _ => {}
             }
             let name = format!("{splitting}, pressure {pressure}");
@@ -153,7 +153,7 @@ fn a_step_above_the_viscous_limit_warns_and_one_below_does_not() {
     assert_eq!(warned("time.step=0.002"), Vec::<String>::new());
     let warnings = warned("time.step=0.05");
     assert!(
-        matches!(&warnings[..], [one] if one.starts_with("time.step = 5e-2 s is above the viscous stability limit, ")),
+        matches!(&warnings[..], [one] if one.starts_with("time.step = 5e-2 s is above the stability limit of the viscosity, ")),
         "{warnings:?}"
     );
 }

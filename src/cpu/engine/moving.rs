@@ -14,7 +14,7 @@ use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation, Points};
 
 impl<T: Real> CpuEngine<T> {
-    pub(super) fn moving(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
+    pub(super) fn move_points(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
         let (sizes, constants) = (&scene.sizes, &scene.constants);
         let real = T::from_f64;
@@ -32,7 +32,7 @@ impl<T: Real> CpuEngine<T> {
                 let mut rung = self.fields.take_index(Buffer::Rung(Points::Standing))?;
                 with_taken!(self.fields, [factor = factors], {
                     let free = self.fields.index(Buffer::Surface)?;
-                    fits::factorise(self.around()?, weight, free, &mut factor, &mut rung);
+                    fits::factorise(self.mirrored()?, weight, free, &mut factor, &mut rung);
                 });
                 self.fields.put_index(Buffer::Rung(Points::Standing), rung);
             }
@@ -43,7 +43,7 @@ impl<T: Real> CpuEngine<T> {
                 };
                 with_taken!(self.fields, [coefficients = Buffer::Coefficients], {
                     let (factor, velocity) = (self.fields.real(factors)?, self.fields.real(Buffer::Projected)?);
-                    fits::fit_velocity(self.around()?, weight, factor, velocity, falling, &mut coefficients);
+                    fits::fit_velocity(self.mirrored()?, weight, factor, velocity, falling, &mut coefficients);
                 });
             }
             Operation::FittedViscosity => {
@@ -56,7 +56,7 @@ impl<T: Real> CpuEngine<T> {
             Operation::FindSurface => {
                 let mut free = self.fields.take_index(Buffer::Surface)?;
                 with_taken!(self.fields, [crowding = Buffer::Crowding], {
-                    surface::find_surface(self.around()?, self.crowd(), sizes.pressured, &mut crowding, &mut free);
+                    surface::find_surface(self.mirrored()?, self.crowd(), sizes.pressured, &mut crowding, &mut free);
                 });
                 self.fields.put_index(Buffer::Surface, free);
             }
@@ -69,7 +69,7 @@ impl<T: Real> CpuEngine<T> {
                 with_taken!(self.fields, [projected = Buffer::Projected, displacement = Buffer::Displacement], {
                     let (factor, pressures) = (self.fields.real(factors)?, self.fields.real(Buffer::Pressure)?);
                     let steps = [dt, real(clock.kick / constants.density)];
-                    let (around, equation) = (self.around()?, self.equation(clock));
+                    let (around, equation) = (self.mirrored()?, self.equation(clock));
                     pressure::correct(
                         around,
                         equation,
@@ -91,7 +91,7 @@ impl<T: Real> CpuEngine<T> {
                         let gradient = clock.kick / constants.density * DIMENSIONS / constants.lattice.density;
                         let (steps, ends) = ([dt, real(gradient)], [interior, sizes.pressured]);
                         density::correct_by_least(
-                            self.around()?,
+                            self.mirrored()?,
                             &pressures,
                             steps,
                             ends,
@@ -105,7 +105,7 @@ impl<T: Real> CpuEngine<T> {
                 with_taken!(self.fields, [projected = Buffer::Projected, displacement = Buffer::Displacement], {
                     let (free, spacing) = (self.fields.index(Buffer::Surface)?, real(constants.spacing));
                     let coefficients = self.fields.real(Buffer::Coefficients)?;
-                    let around = self.around()?;
+                    let around = self.mirrored()?;
                     shift::shift(around, spacing, free, coefficients, interior, &mut projected, &mut displacement);
                 });
             }
@@ -131,7 +131,7 @@ impl<T: Real> CpuEngine<T> {
         let velocity = self.fields.real(Buffer::Projected)?;
         let free = self.fields.index(Buffer::Surface)?;
         let mut divergence = vec![T::zero(); self.scene.padded()];
-        let (around, end) = (self.around()?, self.scene.sizes.interior);
+        let (around, end) = (self.mirrored()?, self.scene.sizes.interior);
         if self.scene.plan.mirrors() {
             let factor = self.fields.real(Buffer::Factor(Points::Standing))?;
             fits::divergence(around, self.scene.constants.weight, factor, velocity, free, end, &mut divergence);
@@ -154,7 +154,7 @@ impl<T: Real> CpuEngine<T> {
                 pressures = Buffer::Pressure
             ],
             {
-                let around = self.around()?;
+                let around = self.mirrored()?;
                 let crowding = self.fields.real(Buffer::Crowding)?;
                 let scalars = [&mut diagonal[..], &mut source[..], &mut pressures[..]];
                 if operation == Operation::AssembleDensity {
@@ -171,7 +171,7 @@ impl<T: Real> CpuEngine<T> {
         Ok(())
     }
 
-    pub(super) fn around(&self) -> Result<Around<'_, T>, EngineError> {
+    pub(super) fn mirrored(&self) -> Result<Around<'_, T>, EngineError> {
         let constants = &self.scene.constants;
         Ok(Around {
             position: self.standing(Buffer::Position)?,

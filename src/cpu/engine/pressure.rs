@@ -62,6 +62,7 @@ impl<T: Real> CpuEngine<T> {
                     residual: constants.tolerance * density_per_kick / clock.dt,
                     max_iterations: constants.max_iterations,
                     floor: constants.floor,
+                    singular: constants.singular,
                 };
                 self.solve = match operation {
                     Operation::ConjugateGradient => self.conjugate_gradient(stop)?,
@@ -82,7 +83,7 @@ impl<T: Real> CpuEngine<T> {
 
     pub(super) fn collocated(&self) -> Result<collocated::Collocated<'_, T>, EngineError> {
         let (lists, row) = (self.lists(Points::Standing)?, self.fields.real(Buffer::MatrixRow)?);
-        Ok(collocated::Collocated { lists, row, singular: !self.scene.plan.moves() })
+        Ok(collocated::Collocated { lists, row })
     }
 
     pub(super) fn symmetric(&self) -> Result<Symmetric<'_, T>, EngineError> {
@@ -167,12 +168,13 @@ impl<T: Real> CpuEngine<T> {
             self.fields.write(Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
             let (points, source) = (self.scene.sizes.points, self.fields.real(Buffer::Source)?);
             let pressure = self.fields.real(Buffer::Pressure)?;
+            let singular = self.scene.constants.singular;
             self.solve.last_residual = match self.scene.cells() {
                 None if self.scene.plan.form == Some(PressureForm::Integral) => {
-                    pressure::residual(&self.symmetric()?, points, source, pressure)
+                    pressure::residual(&self.symmetric()?, points, singular, source, pressure)
                 }
-                Some(_) => pressure::residual(&self.conservative()?, points, source, pressure),
-                None => pressure::residual(&self.collocated()?, points, source, pressure),
+                Some(_) => pressure::residual(&self.conservative()?, points, singular, source, pressure),
+                None => pressure::residual(&self.collocated()?, points, singular, source, pressure),
             };
             self.solve.outcome = Outcome::Converged;
         }

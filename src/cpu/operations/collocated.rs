@@ -18,8 +18,6 @@ use crate::cpu::real::{Pack, Real};
 pub struct Collocated<'a, T> {
     pub lists: Lists<'a>,
     pub row: &'a [T],
-    /// False where the pressure is given somewhere.
-    pub singular: bool,
 }
 
 impl<T: Real> Rows<T> for Collocated<'_, T> {
@@ -34,10 +32,6 @@ impl<T: Real> Rows<T> for Collocated<'_, T> {
             sum += T::Pack::load(&self.row[first + slot * BLOCK..]) * (other - own);
         });
         sum
-    }
-
-    fn singular(&self) -> bool {
-        self.singular
     }
 
     #[inline(always)]

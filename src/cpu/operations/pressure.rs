@@ -9,11 +9,6 @@ pub trait Rows<T: Real>: Sync {
     /// `(A p)_i` for the points `i..i + LANES`.
     fn product(&self, i: usize, p: &[T]) -> T::Pack;
 
-    /// True where the constants are the null space, and the right side must not have them in it.
-    fn singular(&self) -> bool {
-        true
-    }
-
     /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the
     /// diagonal times the solution, which is what rounding errors are measured against.
     fn measure(&self, i: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]);
@@ -27,6 +22,8 @@ pub struct Stop {
     pub max_iterations: u32,
     /// Rounding units of the diagonal's product below which a residual is as small as it gets.
     pub floor: f64,
+    /// The matrix has the constants in its null space: the mean of a residual counts for nothing.
+    pub singular: bool,
 }
 
 impl Stop {
@@ -111,14 +108,14 @@ impl Monitor {
     }
 }
 
-/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean, in the unit that the tolerance is in.
-pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, source: &[T], pressure: &[T]) -> f64 {
+/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean where the matrix is singular, in the unit that the tolerance is in.
+pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, singular: bool, source: &[T], pressure: &[T]) -> f64 {
     let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
     let [sum] = blocks::sum_ranges(source.len(), &|range| {
         let packs = range.step_by(T::Pack::LANES);
         [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
     });
-    let mean = T::Pack::splat(T::from_f64(if matrix.singular() { sum / points as f64 } else { 0.0 }));
+    let mean = T::Pack::splat(T::from_f64(if singular { sum / points as f64 } else { 0.0 }));
     let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
         for i in range.step_by(T::Pack::LANES) {

@@ -37,10 +37,6 @@ impl<T: Real> Rows<T> for Symmetric<'_, T> {
         sum
     }
 
-    fn singular(&self) -> bool {
-        false
-    }
-
     #[inline(always)]
     fn measure(&self, _: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
         let scale = T::Pack::splat(self.per_area);
