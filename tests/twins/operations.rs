@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use stillpoint::case::PressureForm;
+use stillpoint::cpu::operations::moving::density;
 use stillpoint::direct::DirectSolver;
 use stillpoint::engine::{Clock, Data, Engine, Outcome};
 use stillpoint::scene::Scene;
@@ -51,6 +53,7 @@ fn compared(operation: Operation) -> Vec<Buffer> {
 /// flow gives the same again.
 fn made_anew(operation: Operation) -> Vec<Buffer> {
     match operation {
+        Operation::AssembleMirrored | Operation::AssembleDensity => vec![Buffer::MatrixRow],
         Operation::FindNeighbours(points) => vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points)],
         Operation::BuildCells(_)
         | Operation::Factorise(_)
@@ -182,7 +185,11 @@ fn residuals_agree(name: &str, done: Done) {
     let points = scene.sizes.points;
     let size = |i: usize| {
         let size = diagonal[i] * pressure[i];
-        if scene.cells().is_some() { size / volume[i] } else { size }
+        match scene.plan.form {
+            Some(PressureForm::Conservative) => size / volume[i],
+            Some(PressureForm::Integral) => size * density::per_area(scene.constants.lattice),
+            _ => size,
+        }
     };
     let rms = ((0..points).map(|i| size(i).powi(2)).sum::<f64>() / points as f64).sqrt();
     let floor = scene.constants.floor * f64::from(f32::EPSILON) * rms;
