@@ -9,7 +9,7 @@ use crate::case::{Case, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
 use crate::known::Known;
-use crate::measure::evaluate;
+use crate::measure::evaluate_run;
 use crate::motion;
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, MotionWriter, OutputError, RunFolder, Seconds, StopReason, Summary,
@@ -52,18 +52,19 @@ pub fn run(
     // Without time there is nothing to report on the way.
     let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
     let motion = scene.plan.moves().then(|| MotionWriter::create(folder, &scene.case)).transpose()?;
-    let mut writer = Recorder { rows, motion, observer, failed: None };
+    let mut writer = Recorder { rows, motion, history: Vec::new(), observer, failed: None };
     let outcome = simulation::simulate(scene, engine, &mut writer)?;
     if let Some(error) = writer.failed {
         return Err(error.into());
     }
+    let history = writer.history;
     let info = engine.info();
     let profiles = profiles(&scene.case)?;
     let began = Instant::now();
     let snapshot = &outcome.snapshot;
     output::points::write(&folder.points(), snapshot)?;
     output::vtu::write(&folder.vtu(), snapshot)?;
-    let mut summary = summarise(case_path, scene, &info, &outcome, &profiles)?;
+    let mut summary = summarise(case_path, scene, &info, &outcome, &history, &profiles)?;
     // Before the pictures, lest they cost a run its numbers; and once more with the time that they took.
     summary.write(&folder.summary())?;
     if scene.case.output.pictures {
@@ -119,6 +120,7 @@ fn summarise(
     scene: &Scene,
     info: &EngineInfo,
     outcome: &Outcome,
+    history: &[motion::Row],
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Summary, OutputError> {
     let real = if info.precision == "f32" { 4 } else { 8 };
@@ -153,7 +155,7 @@ fn summarise(
         iterations: outcome.iterations,
         warnings,
         bytes_per_point: scene.plan.total_bytes(&scene.sizes, real) as f64 / scene.sizes.points as f64,
-        expect: evaluate(&scene.case, &outcome.snapshot, profiles)?,
+        expect: evaluate_run(&scene.case, &outcome.snapshot, history, profiles)?,
     })
 }
 
@@ -179,6 +181,7 @@ fn trouble(outcome: &Outcome) -> Option<String> {
 struct Recorder<'a> {
     rows: Option<DiagnosticsWriter>,
     motion: Option<MotionWriter>,
+    history: Vec<motion::Row>,
     observer: &'a mut dyn Observer,
     failed: Option<OutputError>,
 }
@@ -195,6 +198,7 @@ impl Observer for Recorder<'_> {
         if let Some(Err(error)) = self.motion.as_mut().map(|motion| motion.append(row)) {
             self.failed.get_or_insert(error);
         }
+        self.history.push(row.clone());
         self.observer.moved(row);
     }
 

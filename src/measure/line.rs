@@ -107,7 +107,7 @@ impl<'a> LineMeasure<'a> {
         match measure {
             Measure::Minimum => Some(self.minimum()),
             Measure::Maximum => Some(self.maximum()),
-            Measure::Profile | Measure::Error => None,
+            _ => None,
         }
     }
 
