@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::case::{Case, Problem, Profile, ReferenceError};
+use crate::case::{Case, Measure, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
 use crate::known::Known;
 use crate::measure::evaluate_run;
 use crate::motion;
+use crate::output::motion::Frames;
+use crate::output::picture::Film;
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, MotionWriter, OutputError, RunFolder, Seconds, StopReason, Summary,
 };
@@ -96,12 +98,24 @@ fn draw(
     snapshot: &Snapshot,
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Vec<PathBuf>, RunError> {
+    if case.moves() {
+        let rows = output::motion::read(&folder.motion())?;
+        let frames = Frames::open(&folder.frames())?;
+        let film = Film { case, time: snapshot.time, rows: &rows, frames: &frames, front: front(case, profiles) };
+        return Ok(output::picture::draw_film(folder, &film, snapshot)?);
+    }
     match (case.problem(), Known::of(case)) {
         (Problem::Derivatives(_), Some(known)) => {
             Ok(output::picture::draw_comparison(folder, case, &known, &comparison::panels(case)?)?)
         }
         _ => Ok(output::picture::draw_all(folder, case, snapshot, profiles)?),
     }
+}
+
+/// The published course of the front, of the first expectation that has one.
+fn front<'a>(case: &Case, profiles: &'a BTreeMap<String, Profile>) -> Option<&'a Profile> {
+    let (name, _) = case.expect.iter().find(|(_, row)| row.measure == Measure::Front)?;
+    profiles.get(name)
 }
 
 /// The published profiles of a case, by the name of their expectation.

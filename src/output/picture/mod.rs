@@ -7,6 +7,7 @@ mod colour;
 mod cost;
 mod frame;
 mod map;
+mod motion;
 mod panels;
 mod pressure;
 mod scale;
@@ -19,6 +20,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 pub use cost::draw_cost;
+pub use motion::{Film, draw_film, draw_films};
 pub use ticks::short;
 
 use canvas::Canvas;
