@@ -34,7 +34,7 @@ const ROW: f64 = 1350.0;
 const TALLEST: f64 = 520.0;
 
 /// A run as its pictures take it.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Film<'a> {
     pub case: &'a Case,
     /// Time reached, s.
@@ -190,9 +190,10 @@ fn published(film: &Film) -> Option<Course> {
 /// A map of one state.
 fn state(text: &Text, case: &Case, last: &Snapshot, values: &[f64], bar: (&str, &str), title: &str) -> Canvas {
     let scale = if bar.0 == "p" { ColourScale::signed(values) } else { ColourScale::magnitude(values) };
+    let domain = DVec2::new(case.domain.width, case.domain.height);
     let pixels = map::size(&case.domain).0 as f64 / case.domain.width;
     let points = |canvas: &mut Canvas, low: DVec2| {
-        discs(canvas, last, values, &scale, (low, pixels, case.domain.height), DISC * case.cloud.spacing);
+        discs(canvas, last, values, &scale, (low, pixels, domain), DISC * case.cloud.spacing);
     };
     map::draw(text, &case.domain, title, &scale, bar, |_, _| Rgb::WHITE, points)
 }
@@ -220,7 +221,76 @@ fn at(time: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::chosen;
+    use std::collections::BTreeMap;
+    use std::fs;
+
+    use image::ImageReader;
+
+    use super::*;
+    use crate::output::MotionWriter;
+
+    /// A run of a block that slides along the floor; `shift` moves it, `press` adds to its pressure.
+    fn left_by(folder: &Path, shift: f64, press: f64) -> BTreeMap<String, Vec<u8>> {
+        let case: Case = toml::from_str(
+            "title = 't'\ndomain = { width = 2.0, height = 1.0 }\ncloud = { arrangement = 'regular', spacing = 0.1 }\n\
+             fluid.density = 1.0\noutput = { frame_every = 0.5, sensors = { a = { at = [0.0, 0.0] } } }\n[expect.a]\n\
+             measure = 'front'\nlength = 1.0\nduration = 1.0\ntolerance = 0.1\nsource = 'a paper'\n",
+        )
+        .unwrap();
+        let state = |time: f64| {
+            let block = (0..25).map(|k| DVec2::new(0.1 * (k % 5) as f64 + time + shift, 0.1 * (k / 5) as f64));
+            let position: Vec<DVec2> = block.collect();
+            let pressure = position.iter().map(|place| 1.0 - place.y + press * time).collect();
+            Snapshot { time, velocity: vec![DVec2::X; 25], pressure, position, derivatives: None }
+        };
+        let folder = RunFolder::create(folder, true).unwrap();
+        let mut writer = MotionWriter::create(&folder, &case).unwrap();
+        let row = |time: f64| Row { time, front: time + shift, sensors: vec![press * time], ..Row::default() };
+        let rows = [0.0, 0.5, 1.0].map(row);
+        for row in &rows {
+            writer.append(row).unwrap();
+            writer.keep(&state(row.time)).unwrap();
+        }
+        let frames = Frames::open(&folder.frames()).unwrap();
+        let profile = Profile { coordinate: vec![0.2, 0.8], value: vec![0.3, 0.9] };
+        let film = Film { case: &case, time: 1.0, rows: &rows, frames: &frames, front: Some(&profile) };
+        let mut paths = draw_film(&folder, &film, &state(1.0)).unwrap();
+        let compared = folder.path().join("compared");
+        fs::create_dir_all(&compared).unwrap();
+        let short = Film { rows: &rows[..1], time: 0.2, ..film };
+        paths.extend(draw_films(&compared, &[film, short], &["one".to_owned(), "two".to_owned()]).unwrap());
+        let name = |path: &PathBuf| path.strip_prefix(folder.path()).unwrap().display().to_string();
+        paths.iter().map(|path| (name(path), fs::read(path).unwrap())).collect()
+    }
+
+    #[test]
+    fn each_picture_shows_where_the_points_are_or_what_presses_on_them() {
+        let root = tempfile::tempdir().unwrap();
+        let first = left_by(root.path(), 0.0, 0.0);
+        let all =
+            ["animation.png", "front.png", "heights.png", "pressure.png", "sensors.png", "sheet.png", "speed.png"];
+        let compared = ["front.png", "heights.png", "sensors.png", "sheet.png"].map(|name| format!("compared/{name}"));
+        assert_eq!(first.keys().filter(|name| !name.contains('/')).collect::<Vec<_>>(), all);
+        assert_eq!(first.keys().filter(|name| name.contains('/')).collect::<Vec<_>>(), compared.each_ref());
+        assert_eq!(first, left_by(root.path(), 0.0, 0.0), "the same run gives the same pictures");
+        let changed = |other: BTreeMap<String, Vec<u8>>| {
+            let same = first.iter().filter(|(name, bytes)| other[*name] == **bytes).map(|(name, _)| name.clone());
+            same.collect::<Vec<String>>()
+        };
+        assert_eq!(changed(left_by(root.path(), 0.05, 0.0)), ["compared/sensors.png", "sensors.png"]);
+        assert_eq!(changed(left_by(root.path(), 0.0, 3.0)), ["compared/front.png", "front.png", "speed.png"]);
+    }
+
+    #[test]
+    fn the_animation_has_every_frame_and_is_for_ever() {
+        let root = tempfile::tempdir().unwrap();
+        let bytes = &left_by(root.path(), 0.0, 0.0)["animation.png"];
+        let control = bytes.windows(4).position(|name| name == b"acTL").expect("the chunk of an animation") + 4;
+        let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
+        assert_eq!((number(control), number(control + 4)), (3, 0));
+        assert_eq!(bytes.windows(4).filter(|name| name == b"fcTL").count(), 3);
+        ImageReader::open(root.path().join("animation.png")).unwrap().decode().unwrap();
+    }
 
     #[test]
     fn frames_are_chosen_evenly_with_both_ends() {

@@ -119,7 +119,7 @@ impl Sheet<'_> {
 
     fn map(&self, canvas: &mut Canvas, low: DVec2, size: DVec2, cell: &Cell) {
         if let Some(state) = &cell.state {
-            let frame = (low, self.pixels(), self.domain.y);
+            let frame = (low, self.pixels(), self.domain);
             discs(canvas, state, &state.pressure, self.scale, frame, DISC * cell.spacing);
         }
         outline(canvas, low, low + size);
@@ -149,20 +149,20 @@ impl Sheet<'_> {
     }
 }
 
-/// Draws every point of a map as a disc. The map has its upper left corner, pixels to a metre and height in metres in `frame`.
+/// Draws every point of a map as a disc. The map has its upper left corner, its pixels to a metre and its sides, m, in the tuple.
 pub fn discs(
     canvas: &mut Canvas,
     state: &Snapshot,
     values: &[f64],
     scale: &ColourScale,
-    (low, pixels, height): (DVec2, f64, f64),
+    (low, pixels, domain): (DVec2, f64, DVec2),
     radius: f64,
 ) {
     let radius = (radius * pixels).max(0.8);
     for (place, &value) in state.position.iter().zip(values) {
         // Points that have left the domain are not drawn over what stands around it.
-        if (0.0..=height).contains(&place.y) && place.x >= 0.0 {
-            let at = low + pixels * DVec2::new(place.x, height - place.y);
+        if inside(*place, domain) {
+            let at = low + pixels * DVec2::new(place.x, domain.y - place.y);
             canvas.disc(at, radius, scale.colour(value));
         }
     }
