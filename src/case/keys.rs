@@ -6,6 +6,7 @@ use super::fault::dotted;
 /// any name.
 pub(crate) type Words = [(&'static str, &'static str)];
 
+#[rustfmt::skip] // A row a line, as the documents are held to it.
 pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("title", "one line of text that names the scene"),
     ("domain", "a table with the keys width, height"),
@@ -66,10 +67,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("expect.*", "a table, its name of letters, digits, _ and - alone"),
     ("expect.*.component", r#""u", "v" or "p"; with measure = "error" also "velocity", "gradient" or "laplacian""#),
     ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
-    (
-        "expect.*.measure",
-        r#""minimum", "maximum", "profile", "error", "front", "sensor", "noise", "area", "energy" or "period""#,
-    ),
+    ("expect.*.measure", r#""minimum", "maximum", "profile", "error", "front", "sensor", "noise", "area", "energy" or "period""#),
     ("expect.*.value", "a number other than 0 (its error is relative), m/s, Pa or s"),
     ("expect.*.profile", "the path of a CSV file, from the case file's folder"),
     ("expect.*.column", "the name of a column of the profile"),
