@@ -3,6 +3,7 @@
 pub mod case;
 pub mod cli;
 pub mod cloud;
+pub mod compare;
 pub mod comparison;
 pub mod cpu;
 pub mod direct;

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::case::{Case, Problem, Profile, ReferenceError};
+use crate::case::{Case, Measure, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
 use crate::known::Known;
-use crate::measure::evaluate;
+use crate::measure::evaluate_run;
 use crate::motion;
+use crate::output::motion::Frames;
+use crate::output::picture::Film;
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, MotionWriter, OutputError, RunFolder, Seconds, StopReason, Summary,
 };
@@ -52,18 +54,19 @@ pub fn run(
     // Without time there is nothing to report on the way.
     let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
     let motion = scene.plan.moves().then(|| MotionWriter::create(folder, &scene.case)).transpose()?;
-    let mut writer = Recorder { rows, motion, observer, failed: None };
+    let mut writer = Recorder { rows, motion, history: Vec::new(), observer, failed: None };
     let outcome = simulation::simulate(scene, engine, &mut writer)?;
     if let Some(error) = writer.failed {
         return Err(error.into());
     }
+    let history = writer.history;
     let info = engine.info();
     let profiles = profiles(&scene.case)?;
     let began = Instant::now();
     let snapshot = &outcome.snapshot;
     output::points::write(&folder.points(), snapshot)?;
     output::vtu::write(&folder.vtu(), snapshot)?;
-    let mut summary = summarise(case_path, scene, &info, &outcome, &profiles)?;
+    let mut summary = summarise(case_path, scene, &info, &outcome, &history, &profiles)?;
     // Before the pictures, lest they cost a run its numbers; and once more with the time that they took.
     summary.write(&folder.summary())?;
     if scene.case.output.pictures {
@@ -95,12 +98,24 @@ fn draw(
     snapshot: &Snapshot,
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Vec<PathBuf>, RunError> {
+    if case.moves() {
+        let rows = output::motion::read(&folder.motion())?;
+        let frames = Frames::open(&folder.frames())?;
+        let film = Film { case, time: snapshot.time, rows: &rows, frames: &frames, front: front(case, profiles) };
+        return Ok(output::picture::draw_film(folder, &film, snapshot)?);
+    }
     match (case.problem(), Known::of(case)) {
         (Problem::Derivatives(_), Some(known)) => {
             Ok(output::picture::draw_comparison(folder, case, &known, &comparison::panels(case)?)?)
         }
         _ => Ok(output::picture::draw_all(folder, case, snapshot, profiles)?),
     }
+}
+
+/// The published course of the front, of the first expectation that has one.
+fn front<'a>(case: &Case, profiles: &'a BTreeMap<String, Profile>) -> Option<&'a Profile> {
+    let (name, _) = case.expect.iter().find(|(_, row)| row.measure == Measure::Front)?;
+    profiles.get(name)
 }
 
 /// The published profiles of a case, by the name of their expectation.
@@ -119,6 +134,7 @@ fn summarise(
     scene: &Scene,
     info: &EngineInfo,
     outcome: &Outcome,
+    history: &[motion::Row],
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Summary, OutputError> {
     let real = if info.precision == "f32" { 4 } else { 8 };
@@ -153,7 +169,7 @@ fn summarise(
         iterations: outcome.iterations,
         warnings,
         bytes_per_point: scene.plan.total_bytes(&scene.sizes, real) as f64 / scene.sizes.points as f64,
-        expect: evaluate(&scene.case, &outcome.snapshot, profiles)?,
+        expect: evaluate_run(&scene.case, &outcome.snapshot, history, profiles)?,
     })
 }
 
@@ -179,6 +195,7 @@ fn trouble(outcome: &Outcome) -> Option<String> {
 struct Recorder<'a> {
     rows: Option<DiagnosticsWriter>,
     motion: Option<MotionWriter>,
+    history: Vec<motion::Row>,
     observer: &'a mut dyn Observer,
     failed: Option<OutputError>,
 }
@@ -195,6 +212,7 @@ impl Observer for Recorder<'_> {
         if let Some(Err(error)) = self.motion.as_mut().map(|motion| motion.append(row)) {
             self.failed.get_or_insert(error);
         }
+        self.history.push(row.clone());
         self.observer.moved(row);
     }
 

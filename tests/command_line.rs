@@ -94,3 +94,32 @@ fn plan_measures_what_a_step_costs() {
     assert!(effects.iter().all(|&price| price > 0.0), "{text}");
     assert!(all > 0.85 * step && all < 1.15 * step, "{text}");
 }
+
+#[test]
+fn runs_that_cannot_be_compared_exit_with_2_and_one_line_and_leave_no_pictures() {
+    let folder = empty_folder();
+    let dam = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/dam_break_shifted.toml");
+    let still = ["--set", "cloud.spacing=0.125", "--set", "time.end=0.1", "--set", "method.radius=2.8"];
+    let moving = ["--engine", "cpu", "--set", "time.end=0.01", "--set", "output.pictures=false"];
+    let run = |case: &str, out: &str, rest: &[&str]| {
+        let code = stillpoint(folder.path(), &[&["run", case, "--out", out, "--quiet"], rest].concat()).status.code();
+        assert!(matches!(code, Some(0 | 1)), "{case}: {code:?}");
+    };
+    run(CASE, "still", &still);
+    run(dam, "dam", &moving);
+    run(dam, "wide", &[&moving[..], &["--set", "domain.width=0.34290"]].concat());
+    for (second, expected) in [
+        ("still", "error: still: has no frames; they are kept where output.frame_every is given\n"),
+        ("none", "error: none: no finished run of points that move: "),
+        (
+            "wide",
+            "error: wide: its domain is 0.3429 x 0.17145 m, that of dam is 0.28575 x 0.17145 m; runs in one domain",
+        ),
+    ] {
+        let output = stillpoint(folder.path(), &["compare", "dam", second, "--out", "compared"]);
+        let message = text(&output.stderr);
+        assert_eq!((output.status.code(), message.lines().count()), (Some(2), 1), "{message}");
+        assert!(message.starts_with(expected), "{second} says {message:?}, not {expected:?}");
+        assert!(!folder.path().join("compared").exists());
+    }
+}

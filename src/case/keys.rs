@@ -6,6 +6,7 @@ use super::fault::dotted;
 /// any name.
 pub(crate) type Words = [(&'static str, &'static str)];
 
+#[rustfmt::skip] // A row a line, as the documents are held to it.
 pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("title", "one line of text that names the scene"),
     ("domain", "a table with the keys width, height"),
@@ -18,6 +19,12 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("cloud.jitter", "a number from 0 to below 0.5, in spacings"),
     ("cloud.minimum_distance", "a number above 0 and at most 0.75, in spacings"),
     ("cloud.seed", "a whole number from 0"),
+    ("cloud.fill", "a table with the keys from, to"),
+    ("cloud.fill.from", "two numbers [x, y], m, the lower left corner, inside the domain"),
+    ("cloud.fill.to", "two numbers [x, y], m, the upper right corner, inside the domain"),
+    ("cloud.fill.wave", "a table with the keys amplitude, half_waves"),
+    ("cloud.fill.wave.amplitude", "a length above 0, m"),
+    ("cloud.fill.wave.half_waves", "a whole number from 1 to 4294967295"),
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
     ("boundaries.*.kind", r#""wall", "slip", "inlet" or "outlet""#),
@@ -25,17 +32,21 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
     ("boundaries.*.temperature", "a number, K"),
     ("boundaries.*.heat_flux", "a number, K m/s, above 0 into the domain"),
+    ("initial", "a table with the key rotation"),
+    ("initial.rotation", "a number, 1/s"),
     ("method.operators", r#""interpolation" or "integral""#),
     ("method.order", "1, 2, 3 or 4"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
-    ("effects.pressure.form", r#""conservative" or "collocated""#),
+    ("effects.pressure.form", r#""conservative", "collocated" or "integral""#),
     ("effects.pressure.divergence", r#""faces" or "fit""#),
     ("effects.pressure.gradient", r#""fit" or "adjoint""#),
     ("effects.pressure.solver", r#""conjugate_gradient", "bicgstab" or "direct""#),
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),
+    ("effects.pressure.relaxation", "a number from 0 to 1"),
+    ("effects.advection.motion", r#""fixed", "lagrangian" or "shifted""#),
     ("effects.advection.remap", r#""departure" or "forward""#),
     ("effects.gravity.acceleration", "two numbers [along x, along y], m/s^2, not both 0"),
     ("effects.heat.diffusivity", "a number above 0, m^2/s"),
@@ -62,16 +73,25 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("poisson.field", r#""waves" or "cosines""#),
     ("output.report_every", "a whole number from 1 to 4294967295"),
     ("output.pictures", "true or false"),
+    ("output.frame_every", "a time above 0, s"),
+    ("output.sensors", "tables [output.sensors.NAME]"),
+    ("output.sensors.*", "a table with the key at"),
+    ("output.sensors.*.at", "two numbers [x, y], m, inside the domain"),
     ("expect", "tables [expect.NAME]"),
     ("expect.*", "a table, its name of letters, digits, _ and - alone"),
     ("expect.*.component", r#""u", "v", "p", "temperature", "tracer", "velocity", "gradient" or "laplacian""#),
     ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
-    ("expect.*.measure", r#""minimum", "maximum", "profile", "error", "slope" or "loss""#),
-    ("expect.*.value", "a number other than 0 (its error is relative), m/s, Pa, K or K/m"),
+    ("expect.*.measure", r#""minimum", "maximum", "profile", "error", "slope", "loss", "front", "sensor", "noise", "area", "energy" or "period""#),
+    ("expect.*.value", "a number other than 0 (its error is relative), m/s, Pa, K, K/m or s"),
     ("expect.*.profile", "the path of a CSV file, from the case file's folder"),
     ("expect.*.column", "the name of a column of the profile"),
     ("expect.*.tracer", "the name of one of effects.tracers"),
     ("expect.*.side", r#""left", "right", "bottom" or "top""#),
+    ("expect.*.sensor", "the name of one of output.sensors"),
+    ("expect.*.length", "a length above 0, m"),
+    ("expect.*.duration", "a time above 0, s"),
+    ("expect.*.delay", "a number, in units of duration"),
+    ("expect.*.after", "a time from 0 to below time.end, s"),
     ("expect.*.tolerance", "a number above 0, relative"),
     ("expect.*.source", "a line that says where the value was published"),
 ];
@@ -139,9 +159,13 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 18] = [
+        let tables: [(&str, &[&str]); 22] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
+            ("cloud.fill", fields::<Fill>()),
+            ("cloud.fill.wave", fields::<Wave>()),
+            ("initial", fields::<Initial>()),
+            ("output.sensors.*", fields::<Sensor>()),
             ("fluid", fields::<Fluid>()),
             ("boundaries.*", fields::<Wall>()),
             ("method", fields::<Method>()),
@@ -164,7 +188,7 @@ mod tests {
         let absent: Vec<_> = held.iter().filter(|key| allowed(&path(key)).is_none()).collect();
         assert!(absent.is_empty(), "no words for {absent:?}");
         held.extend(fields::<Case>().iter().map(|key| (*key).to_owned()));
-        held.push("expect.*".to_owned());
+        held.extend(["expect.*", "output.sensors.*"].map(str::to_owned));
         let stray: Vec<_> = ALLOWED.iter().filter(|(key, _)| !held.contains(&(*key).to_owned())).collect();
         assert!(stray.is_empty(), "words for no key: {stray:?}");
     }
@@ -177,7 +201,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 17] = [
+        let keys: [(&str, &[&str]); 18] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
@@ -189,6 +213,7 @@ mod tests {
             ("effects.pressure.form", words::<PressureForm>()),
             ("effects.pressure.gradient", words::<Gradient>()),
             ("effects.pressure.solver", words::<Solver>()),
+            ("effects.advection.motion", words::<Motion>()),
             ("effects.advection.remap", words::<Remap>()),
             ("effects.tracers.shape", words::<Shape>()),
             ("boundaries.any.kind", words::<SideKind>()),

@@ -530,7 +530,8 @@ impl Default for Output {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    pub component: Component,
+    /// `minimum`, `maximum`, `profile` and `error`: what is looked at.
+    pub component: Option<Component>,
     /// `minimum`, `maximum` and `profile`: the line that is looked along.
     pub line: Option<Line>,
     pub measure: Measure,
@@ -541,6 +542,16 @@ pub struct Expectation {
     pub profile: Option<PathBuf>,
     /// `profile`: the column of values; the first after the coordinate where absent.
     pub column: Option<String>,
+    /// `sensor` and `noise`: one of `output.sensors`.
+    pub sensor: Option<String>,
+    /// `front`: what the profile's values are measured in, m.
+    pub length: Option<f64>,
+    /// `front`: what the profile's times are measured in, s.
+    pub duration: Option<f64>,
+    /// `front`: added to the run's time, in units of `duration`; 0 where absent.
+    pub delay: Option<f64>,
+    /// `sensor`, `noise`, `area`, `energy` and `period`: what comes before is left out, s; 0 where absent.
+    pub after: Option<f64>,
     /// Largest relative error (extremes), rms error over the profile's largest magnitude (profiles), or rms error over the rms
     /// of the exact field (errors).
     pub tolerance: f64,
@@ -595,6 +606,18 @@ pub enum Measure {
     /// What has been lost of a tracer since the beginning, over what there was; of the velocity, what comes in and does not go out, over
     /// what comes in.
     Loss,
+    /// Points that move: largest relative difference of how far the fluid reaches from a published course in time.
+    Front,
+    /// Points that move: mean pressure at a sensor.
+    Sensor,
+    /// Points that move: root mean square of the pressure at a sensor about its mean, over that mean.
+    Noise,
+    /// Points that move: largest change of the area that the fluid covers, over that at the start.
+    Area,
+    /// Points that move: largest change of the kinetic and potential energy, over that at the start.
+    Energy,
+    /// Points that move: the time from one rise of the fluid beside the left wall through its mean height to the next.
+    Period,
 }
 
 /// A side of the rectangle.
@@ -605,4 +628,30 @@ pub enum SideName {
     Right,
     Bottom,
     Top,
+}
+
+impl Measure {
+    /// True of what is measured over the whole of a run of points that move.
+    pub fn of_motion(self) -> bool {
+        use Measure::{Area, Energy, Front, Noise, Period, Sensor};
+        matches!(self, Front | Sensor | Noise | Area | Energy | Period)
+    }
+
+    /// The word of a case file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Measure::Minimum => "minimum",
+            Measure::Maximum => "maximum",
+            Measure::Profile => "profile",
+            Measure::Error => "error",
+            Measure::Slope => "slope",
+            Measure::Loss => "loss",
+            Measure::Front => "front",
+            Measure::Sensor => "sensor",
+            Measure::Noise => "noise",
+            Measure::Area => "area",
+            Measure::Energy => "energy",
+            Measure::Period => "period",
+        }
+    }
 }

@@ -26,6 +26,8 @@ pub enum Command {
     Cost(CostArguments),
     /// Draw the pictures of a finished run or study again.
     Render(RenderArguments),
+    /// Draw finished runs of points that move side by side, at the same times.
+    Compare(CompareArguments),
     /// List the GPUs that runs can use.
     Adapters,
 }
@@ -101,6 +103,16 @@ pub struct RenderArguments {
     /// The folder of a finished run or study.
     #[arg(value_name = "RUN")]
     pub run: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct CompareArguments {
+    /// The folders of two or more finished runs.
+    #[arg(value_name = "RUN", required = true, num_args = 2..)]
+    pub runs: Vec<PathBuf>,
+    /// The folder to draw into.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::case::{CaseError, ReferenceError};
+use crate::compare::CompareError;
 use crate::comparison::ComparisonError;
 use crate::engine::EngineError;
 use crate::output::OutputError;
@@ -48,6 +49,8 @@ pub enum CliError {
     #[error("{0}")]
     Diverged(String),
     #[error(transparent)]
+    Compare(#[from] CompareError),
+    #[error(transparent)]
     Comparison(#[from] ComparisonError),
     #[error(transparent)]
     Reference(#[from] ReferenceError),
@@ -69,6 +72,12 @@ impl CliError {
             | CliError::AdapterOnCpu
             | CliError::Scene { .. }
             | CliError::Reference(_)
+            | CliError::Compare(
+                CompareError::NotARun { .. }
+                | CompareError::NoFrames { .. }
+                | CompareError::Domains { .. }
+                | CompareError::Reference(_),
+            )
             | CliError::Engine(EngineError::TooLarge { .. } | EngineError::Adapter(_))
             | CliError::Simulation(SimulationError::TooFastForForward { .. })
             | CliError::Output(OutputError::NotEmpty(_) | OutputError::NotAFolder(_)) => 2,
@@ -77,6 +86,7 @@ impl CliError {
             | CliError::Simulation(_)
             | CliError::Engine(_)
             | CliError::Output(_)
+            | CliError::Compare(CompareError::Output(_))
             | CliError::Comparison(_)
             | CliError::Diverged(_)
             | CliError::Missed { .. } => 1,

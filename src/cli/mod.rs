@@ -3,6 +3,7 @@
 mod adapters;
 mod args;
 mod check;
+mod compare;
 mod cost;
 mod engine;
 mod error;
@@ -43,6 +44,7 @@ fn execute(command: &Command) -> Result<(), CliError> {
         Command::Plan(arguments) => plan::plan(arguments),
         Command::Cost(arguments) => cost::cost(arguments),
         Command::Render(arguments) => render::render(arguments),
+        Command::Compare(arguments) => compare::compare(arguments),
         Command::Adapters => adapters::adapters(),
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::history;
 use super::line::TEMPERATURE;
 use super::loss::{amounts, flows};
 use super::slope::mean_slope;
@@ -11,6 +12,7 @@ use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::exact::Exact;
 use crate::known::Known;
+use crate::motion;
 use crate::snapshot::Snapshot;
 
 /// One row of `[expect]` with its measured value. `None` stands where the run gave no finite number.
@@ -19,11 +21,14 @@ pub struct ExpectationResult {
     pub name: String,
     /// In words: `minimum of u along x = 0.5`.
     pub quantity: String,
-    /// Coordinate of the computed extreme along the line, m; profiles and errors have none.
+    /// Coordinate of the computed extreme along the line, m; time of the largest difference of a front or an area, s; the
+    /// others have none.
     pub position: Option<f64>,
-    /// The computed extreme, or the rms difference from the profile or the exact field; m/s or Pa.
+    /// The computed extreme, or the rms difference from the profile or the exact field; m/s or Pa. Of points that move:
+    /// the front, the area or the energy where it is farthest off, a sensor's mean or its rms about it, Pa.
     pub value: Option<f64>,
-    /// The published extreme, the published profile's largest magnitude, or the rms of the exact field; m/s or Pa.
+    /// The published extreme, the published profile's largest magnitude, or the rms of the exact field; m/s or Pa. Of
+    /// points that move: the published front there, 1 of an area, the energy at the start, the published mean or the computed one of noise, Pa.
     pub reference: f64,
     /// `|value - reference| / |reference|`, or the rms difference over the reference.
     pub error: Option<f64>,
@@ -32,14 +37,27 @@ pub struct ExpectationResult {
     pub source: String,
 }
 
-/// Measures every expectation of a case, in the order of their names; `profiles` holds the published profiles by the
-/// name of their expectation.
+/// [`evaluate_run`] of points that stand.
 ///
 /// # Errors
-/// A snapshot that can't be measured, an expectation without its value or profile, or a reference that is zero.
+/// Those of [`evaluate_run`].
 pub fn evaluate(
     case: &Case,
     snapshot: &Snapshot,
+    profiles: &BTreeMap<String, Profile>,
+) -> Result<Vec<ExpectationResult>, MeasureError> {
+    evaluate_run(case, snapshot, &[], profiles)
+}
+
+/// Measures every expectation of a case, in the order of their names; `profiles` holds the published profiles by the
+/// name of their expectation, and `rows` are the reports of points that move.
+///
+/// # Errors
+/// A snapshot that can't be measured, an expectation without its value or profile, or a reference that is zero.
+pub fn evaluate_run(
+    case: &Case,
+    snapshot: &Snapshot,
+    rows: &[motion::Row],
     profiles: &BTreeMap<String, Profile>,
 ) -> Result<Vec<ExpectationResult>, MeasureError> {
     if case.expect.is_empty() {
@@ -56,7 +74,11 @@ pub fn evaluate(
         .map(|(name, row)| {
             let fail = |what: &str| MeasureError::Expectation { name: name.clone(), what: what.to_owned() };
             let tracer = case.effects.tracers.iter().find(|tracer| Some(&tracer.name) == row.tracer.as_ref());
+            let component = || row.component.ok_or_else(|| fail("`component` is missing"));
             let found = match row.measure {
+                measure if measure.of_motion() => {
+                    history::found(case, row, rows, profiles.get(name)).map_err(|lacking| fail(lacking))?
+                }
                 Measure::Slope => {
                     let side = row.side.ok_or_else(|| fail("`side` is missing"))?;
                     let field = snapshot.carried(TEMPERATURE);
@@ -64,7 +86,7 @@ pub fn evaluate(
                     let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
                     Found { position: None, value, reference, difference: (value - reference).abs() }
                 }
-                Measure::Loss if row.component == Component::Velocity => {
+                Measure::Loss if row.component == Some(Component::Velocity) => {
                     let [reference, value] = flows(&sampler, case, &snapshot.velocity);
                     Found { position: None, value, reference, difference: (value - reference).abs() }
                 }
@@ -74,16 +96,17 @@ pub fn evaluate(
                     Found { position: None, value, reference, difference: (value - reference).abs() }
                 }
                 Measure::Error => {
-                    let known = Known::of(case).map(|known| FieldError::of_known(snapshot, &known, row.component));
+                    let component = component()?;
+                    let known = Known::of(case).map(|known| FieldError::of_known(snapshot, &known, component));
                     let flow = exact.as_ref().map(|exact| match tracer {
                         Some(tracer) => FieldError::of_tracer(snapshot, exact, tracer),
-                        None => FieldError::new(snapshot, exact, row.component),
+                        None => FieldError::new(snapshot, exact, component),
                     });
                     Found::of_field(known.or(flow).ok_or_else(|| fail("there is no exact solution"))?)
                 }
                 _ => {
                     let at = row.line.ok_or_else(|| fail("`line` is missing"))?;
-                    let line = LineMeasure::new(&sampler, snapshot, &case.domain, row.component, at)?;
+                    let line = LineMeasure::new(&sampler, snapshot, &case.domain, component()?, at)?;
                     Found::along_line(row, &line, profiles.get(name), &fail)?
                 }
             };
@@ -96,12 +119,12 @@ pub fn evaluate(
 }
 
 /// What was measured of a row.
-struct Found {
-    /// m
-    position: Option<f64>,
-    value: f64,
-    reference: f64,
-    difference: f64,
+pub(super) struct Found {
+    /// m, or s
+    pub position: Option<f64>,
+    pub value: f64,
+    pub reference: f64,
+    pub difference: f64,
 }
 
 impl Found {
@@ -135,8 +158,8 @@ fn judged(
     fail: &dyn Fn(&str) -> MeasureError,
 ) -> Result<ExpectationResult, MeasureError> {
     let Found { position, value, reference, difference } = found;
-    // An exact field that has died away leaves no relative error, and the row fails.
-    if reference == 0.0 && row.measure != Measure::Error {
+    // An exact field that has died away and a pressure that is 0 leave no relative error, and the row fails.
+    if reference == 0.0 && !matches!(row.measure, Measure::Error | Measure::Noise) {
         return Err(fail("the published value is zero, so a relative error has no meaning"));
     }
     let finite = |x: f64| x.is_finite().then_some(x);
@@ -160,23 +183,17 @@ fn rms_difference(line: &LineMeasure, profile: &Profile) -> f64 {
 }
 
 fn quantity(row: &Expectation) -> String {
-    let measure = match row.measure {
-        Measure::Minimum => "minimum of",
-        Measure::Maximum => "maximum of",
-        Measure::Profile => "profile of",
-        Measure::Error => "error of",
-        Measure::Slope => "slope of",
-        Measure::Loss => "loss of",
-    };
+    let measure = format!("{} of", row.measure.word());
     let component = match row.component {
-        Component::U => "u",
-        Component::V => "v",
-        Component::P => "p",
-        Component::Velocity => "the velocity",
-        Component::Temperature => "the temperature",
-        Component::Tracer => row.tracer.as_deref().unwrap_or("a tracer"),
-        Component::Gradient => "the gradient",
-        Component::Laplacian => "the Laplacian",
+        Some(Component::U) => "u",
+        Some(Component::V) => "v",
+        Some(Component::P) => "p",
+        Some(Component::Velocity) => "the velocity",
+        Some(Component::Temperature) => "the temperature",
+        Some(Component::Tracer) => row.tracer.as_deref().unwrap_or("a tracer"),
+        Some(Component::Gradient) => "the gradient",
+        Some(Component::Laplacian) => "the Laplacian",
+        None => return history::quantity(row),
     };
     match row.line {
         Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),
@@ -196,7 +213,7 @@ mod tests {
 
     fn expectation(measure: Measure, value: Option<f64>) -> Expectation {
         Expectation {
-            component: Component::U,
+            component: Some(Component::U),
             line: Some(Line::X(0.5)),
             measure,
             value,
@@ -204,6 +221,11 @@ mod tests {
             column: None,
             tracer: None,
             side: None,
+            sensor: None,
+            length: None,
+            duration: None,
+            delay: None,
+            after: None,
             tolerance: 0.01,
             source: "a paper".into(),
         }

@@ -114,7 +114,7 @@ impl<'a> LineMeasure<'a> {
         match measure {
             Measure::Minimum => Some(self.minimum()),
             Measure::Maximum => Some(self.maximum()),
-            Measure::Profile | Measure::Error | Measure::Slope | Measure::Loss => None,
+            _ => None,
         }
     }
 

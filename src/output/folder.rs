@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use super::OutputError;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 10] = [
+const FILES: [&str; 16] = [
     "points.csv",
     "points.vtu",
     "diagnostics.csv",
+    "motion.csv",
     "summary.json",
     "pressure.png",
     "speed.png",
@@ -18,6 +19,11 @@ const FILES: [&str; 10] = [
     "temperature.png",
     "gradient.png",
     "laplacian.png",
+    "sheet.png",
+    "heights.png",
+    "animation.png",
+    "front.png",
+    "sensors.png",
 ];
 
 /// What the names of pictures of tracers begin with.
@@ -45,12 +51,9 @@ impl RunFolder {
             let tracers = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
             let tracers = tracers.filter(|name| name.starts_with(TRACER) && name.ends_with(".png"));
             for name in FILES.map(str::to_owned).into_iter().chain(tracers) {
-                let file = path.join(name);
-                match fs::remove_file(&file) {
-                    Err(error) if error.kind() != ErrorKind::NotFound => return Err(OutputError::io(&file)(error)),
-                    _ => {}
-                }
+                remove(&path.join(name))?;
             }
+            remove_frames(&folder.frames())?;
         } else if fs::read_dir(path).map_err(OutputError::io(path))?.next().is_some() {
             return Err(OutputError::NotEmpty(path.to_owned()));
         }
@@ -125,6 +128,58 @@ impl RunFolder {
     pub fn centreline_picture(&self) -> PathBuf {
         self.path.join("centreline.png")
     }
+
+    /// Of points that move: maps of the pressure at chosen times.
+    pub fn sheet_picture(&self) -> PathBuf {
+        self.path.join("sheet.png")
+    }
+
+    /// Of points that move: the pressure as a height over the plane at the same times.
+    pub fn heights_picture(&self) -> PathBuf {
+        self.path.join("heights.png")
+    }
+
+    /// Of points that move: all frames, one after the other.
+    pub fn animation(&self) -> PathBuf {
+        self.path.join("animation.png")
+    }
+
+    /// Of points that move: how far the fluid reaches against time.
+    pub fn front_picture(&self) -> PathBuf {
+        self.path.join("front.png")
+    }
+
+    /// Of points that move: the pressure at the sensors against time.
+    pub fn sensors_picture(&self) -> PathBuf {
+        self.path.join("sensors.png")
+    }
+}
+
+/// Removes a file that may be absent.
+fn remove(file: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::io(file)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Removes the frames of a run and their times, and the folder if nothing else is in it.
+fn remove_frames(frames: &Path) -> Result<(), OutputError> {
+    if !frames.is_dir() {
+        return Ok(());
+    }
+    let mut others = false;
+    for entry in fs::read_dir(frames).map_err(OutputError::io(frames))? {
+        let path = entry.map_err(OutputError::io(frames))?.path();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let numbered = name.len() >= 4 && name.chars().all(|c| c.is_ascii_digit());
+        if path.extension().is_some_and(|end| end == "csv") && (numbered || name == "times") {
+            remove(&path)?;
+        } else {
+            others = true;
+        }
+    }
+    if others { Ok(()) } else { fs::remove_dir(frames).map_err(OutputError::io(frames)) }
 }
 
 #[cfg(test)]
@@ -159,11 +214,36 @@ mod tests {
             folder.centreline_picture(),
             folder.gradient_picture(),
             folder.laplacian_picture(),
+            folder.motion(),
+            folder.sheet_picture(),
+            folder.heights_picture(),
+            folder.animation(),
+            folder.front_picture(),
+            folder.sensors_picture(),
         ] {
             fs::write(path, "").unwrap();
         }
+        fs::create_dir(folder.frames()).unwrap();
+        for name in ["0000.csv", "12345.csv", "times.csv"] {
+            fs::write(folder.frames().join(name), "").unwrap();
+        }
         RunFolder::create(root.path(), true).unwrap();
         assert_eq!(fs::read_dir(root.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn what_else_lies_among_the_frames_stays() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = RunFolder::open(root.path()).unwrap();
+        fs::create_dir(folder.frames()).unwrap();
+        for name in ["0003.csv", "0003.txt", "mine.csv"] {
+            fs::write(folder.frames().join(name), "").unwrap();
+        }
+        RunFolder::create(root.path(), true).unwrap();
+        let left = fs::read_dir(folder.frames()).unwrap().map(|entry| entry.unwrap().file_name());
+        let mut left: Vec<_> = left.collect();
+        left.sort();
+        assert_eq!(left, ["0003.txt", "mine.csv"]);
     }
 
     #[test]

@@ -67,7 +67,164 @@ impl MotionWriter {
     }
 }
 
+/// The rows of motion.csv, its columns behind the fixed ones those of the sensors.
+///
+/// # Errors
+/// A file that is no such table, errors of the file system.
+pub fn read(path: &Path) -> Result<Vec<Row>, OutputError> {
+    let fixed = HEADER.split(',').count();
+    let wrong = |line: usize, what: &str| OutputError::Csv { path: path.to_owned(), line, what: what.to_owned() };
+    let text = fs::read_to_string(path).map_err(OutputError::io(path))?;
+    let mut lines = text.lines().enumerate();
+    let header = lines.next().map_or("", |(_, header)| header);
+    if !header.starts_with(HEADER) {
+        return Err(wrong(1, &format!("the header is `{header}`")));
+    }
+    let columns = header.split(',').count();
+    lines
+        .map(|(line, text)| {
+            let cells = text.split(',').map(|cell| cell.parse::<f64>().ok().filter(|value| value.is_finite()));
+            let cells = cells.collect::<Option<Vec<f64>>>().ok_or_else(|| wrong(line + 1, "a cell is not a number"))?;
+            if cells.len() != columns {
+                return Err(wrong(line + 1, &format!("{} cells, and the header names {columns}", cells.len())));
+            }
+            Ok(Row {
+                step: cells[0] as u64,
+                time: cells[1],
+                kinetic_energy: cells[2],
+                potential_energy: cells[3],
+                nearest: [cells[4], cells[5], cells[6]],
+                front: cells[7],
+                column: cells[8],
+                area: cells[9],
+                surface: cells[10] as u64,
+                lowered: cells[11] as u64,
+                lost: cells[12] as u64,
+                sensors: cells[fixed..].to_vec(),
+            })
+        })
+        .collect()
+}
+
+/// The frames that a run has left, each read when it is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frames {
+    folder: PathBuf,
+    /// s
+    times: Vec<f64>,
+}
+
+impl Frames {
+    /// Of the folder `frames/` of a run; none where there is no such folder.
+    ///
+    /// # Errors
+    /// A file of times that is no such table, errors of the file system.
+    pub fn open(folder: &Path) -> Result<Self, OutputError> {
+        let path = folder.join("times.csv");
+        if !path.is_file() {
+            return Ok(Self { folder: folder.to_owned(), times: Vec::new() });
+        }
+        let text = fs::read_to_string(&path).map_err(OutputError::io(&path))?;
+        let time = |(line, row): (usize, &str)| {
+            let time = row.split_once(',').and_then(|(_, time)| time.parse::<f64>().ok());
+            let what = "not a number of a frame and its time".to_owned();
+            time.ok_or_else(|| OutputError::Csv { path: path.clone(), line: line + 1, what })
+        };
+        let times = text.lines().enumerate().skip(1).map(time).collect::<Result<Vec<f64>, OutputError>>()?;
+        Ok(Self { folder: folder.to_owned(), times })
+    }
+
+    pub fn count(&self) -> usize {
+        self.times.len()
+    }
+
+    /// s
+    pub fn time(&self, number: usize) -> f64 {
+        self.times[number]
+    }
+
+    /// The frame nearest to a time, s, unless the time is farther from it than half way to another: none after the end.
+    pub fn near(&self, time: f64) -> Option<usize> {
+        let off = |number: &usize| (self.times[*number] - time).abs();
+        let nearest = (0..self.count()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let apart = self.times.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        (off(&nearest) <= 0.5 * apart + 1e-12).then_some(nearest)
+    }
+
+    /// # Errors
+    /// A frame that cannot be read.
+    pub fn read(&self, number: usize) -> Result<Snapshot, OutputError> {
+        points::read(&frame(&self.folder, number), self.times[number])
+    }
+}
+
 /// The file of a frame.
-pub fn frame(frames: &Path, number: usize) -> PathBuf {
+fn frame(frames: &Path, number: usize) -> PathBuf {
     frames.join(format!("{number:04}.csv"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    fn case() -> Case {
+        toml::from_str(
+            "title = 't'\ndomain = { width = 1.0, height = 1.0 }\ncloud = { arrangement = 'regular', spacing = 0.1 }\n\
+             fluid.density = 1.0\noutput = { frame_every = 0.5, sensors = { a = { at = [0.0, 0.0] } } }\n",
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn rows_and_frames_read_back_as_they_were_written() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = RunFolder::create(root.path(), false).unwrap();
+        let mut writer = MotionWriter::create(&folder, &case()).unwrap();
+        let row = |step: u64| {
+            let reals = [0.1 + 0.2, 1.0 / 3.0];
+            let nearest = [0.5, reals[1], 1.5];
+            Row {
+                step,
+                time: reals[0],
+                front: 2.0,
+                nearest,
+                surface: 7,
+                lost: 1,
+                sensors: vec![-3.5],
+                ..Row::default()
+            }
+        };
+        writer.append(&row(1)).unwrap();
+        writer.append(&row(2)).unwrap();
+        assert!(writer.append(&Row { front: f64::NAN, ..row(3) }).is_err());
+        assert_eq!(read(&folder.motion()).unwrap(), [row(1), row(2)]);
+
+        let state = |time: f64| {
+            let one = vec![DVec2::new(time, 0.5)];
+            Snapshot { time, position: one.clone(), velocity: one, pressure: vec![time], ..Snapshot::default() }
+        };
+        for time in [0.0, 0.5, 1.0] {
+            writer.keep(&state(time)).unwrap();
+        }
+        let frames = Frames::open(&folder.frames()).unwrap();
+        assert_eq!((frames.count(), frames.read(1).unwrap()), (3, state(0.5)));
+        assert_eq!([0.0, 0.7, 1.2, 1.4].map(|time| frames.near(time)), [Some(0), Some(1), Some(2), None]);
+        assert_eq!(Frames::open(root.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_broken_table_is_named_with_its_line() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("motion.csv");
+        for (text, what) in [
+            ("x\n".to_owned(), "line 1: the header is `x`"),
+            (format!("{HEADER}\n1,2\n"), "line 2: 2 cells, and the header names 13"),
+            (format!("{HEADER}\n1,x\n"), "line 2: a cell is not a number"),
+        ] {
+            fs::write(&path, text).unwrap();
+            let error = read(&path).unwrap_err().to_string();
+            assert!(error.ends_with(what), "{error}");
+        }
+    }
 }

@@ -15,12 +15,20 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
 }
 
 fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    check_motion(case, expectation, key)?;
+    if expectation.measure.of_motion() {
+        return check_words(expectation, key);
+    }
     check_field(case, expectation, key)?;
     check_line(case, expectation, key)?;
-    if expectation.component == Component::P && case.effects.pressure.is_none() {
+    if expectation.component == Some(Component::P) && case.effects.pressure.is_none() {
         return Err(Fault::reason(&key("component"), "there is no pressure: the table effects.pressure is absent"));
     }
     check_measure(expectation, key)?;
+    check_words(expectation, key)
+}
+
+fn check_words(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     if expectation.tolerance <= 0.0 {
         return Err(Fault::range(&key("tolerance")));
     }
@@ -33,10 +41,10 @@ fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Strin
 /// The fields that are carried are there, and a tracer is named.
 fn check_field(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     let Expectation { component, measure, tracer, side, .. } = expectation;
-    if *component == Component::Temperature && case.effects.heat.is_none() {
+    if *component == Some(Component::Temperature) && case.effects.heat.is_none() {
         return Err(Fault::reason(&key("component"), "there is no temperature: the table effects.heat is absent"));
     }
-    match (tracer, *component == Component::Tracer) {
+    match (tracer, *component == Some(Component::Tracer)) {
         (None, true) => return Err(Fault::missing(&key("tracer"))),
         (Some(_), false) => return Err(Fault::reason(&key("tracer"), "belongs to the component tracer; leave it out")),
         (Some(name), true) if !case.effects.tracers.iter().any(|tracer| tracer.name == *name) => {
@@ -70,7 +78,8 @@ fn known(case: &Case, expectation: &Expectation) -> &'static [Component] {
 
 /// An error is taken over all points and against an exact solution, everything else along a line.
 fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
-    let Expectation { line, measure, component, .. } = expectation;
+    let Expectation { line, measure, .. } = expectation;
+    let component = &expectation.component.ok_or_else(|| Fault::missing(&key("component")))?;
     let problem = case.problem();
     if *measure == Measure::Error {
         if case.exact.is_none() && problem == Problem::Flow {
@@ -127,6 +136,76 @@ fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Stri
     if (0.0..=length).contains(&at) { Ok(()) } else { Err(Fault::range(&key("line"))) }
 }
 
+/// What is measured of points that move over a whole run takes keys of its own, and only those.
+fn check_motion(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    use Measure::{Area, Energy, Front, Noise, Period, Sensor};
+    let stray: [(&str, bool, &[Measure]); 5] = [
+        ("sensor", row.sensor.is_some(), &[Sensor, Noise]),
+        ("length", row.length.is_some(), &[Front]),
+        ("duration", row.duration.is_some(), &[Front]),
+        ("delay", row.delay.is_some(), &[Front]),
+        ("after", row.after.is_some(), &[Sensor, Noise, Area, Energy, Period]),
+    ];
+    let flow: [(&str, bool, &[Measure]); 5] = [
+        ("component", row.component.is_some(), &[]),
+        ("line", row.line.is_some(), &[]),
+        ("column", row.column.is_some(), &[Front]),
+        ("profile", row.profile.is_some(), &[Front]),
+        ("value", row.value.is_some(), &[Sensor, Period]),
+    ];
+    let measured = row.measure.of_motion();
+    let given = stray.iter().chain(flow.iter().filter(|_| measured));
+    for (name, _, measures) in given.filter(|(_, given, measures)| *given && !measures.contains(&row.measure)) {
+        let words: Vec<&str> = measures.iter().map(|measure| measure.word()).collect();
+        let to = if words.is_empty() { "other measures".to_owned() } else { format!("measures {}", words.join(", ")) };
+        let reason = format!("belongs to the {to}, and measure is {:?}", row.measure.word());
+        return Err(Fault::reason(&key(name), reason));
+    }
+    if !measured {
+        return Ok(());
+    }
+    if !case.moves() {
+        let reason = "is that of points that move, and effects.advection.motion is \"fixed\"";
+        return Err(Fault::reason(&key("measure"), reason));
+    }
+    let needed = |given: bool, name: &str| if given { Ok(()) } else { Err(Fault::missing(&key(name))) };
+    let positive = |value: Option<f64>, name: &str| {
+        if value.is_none_or(|value| value > 0.0) { Ok(()) } else { Err(Fault::range(&key(name))) }
+    };
+    match row.measure {
+        Front => {
+            needed(row.profile.is_some(), "profile")?;
+            needed(row.length.is_some(), "length")?;
+            needed(row.duration.is_some(), "duration")?;
+            positive(row.length, "length")?;
+            positive(row.duration, "duration")
+        }
+        Sensor | Noise => {
+            needed(row.sensor.is_some(), "sensor")?;
+            if row.sensor.as_ref().is_some_and(|sensor| !case.output.sensors.contains_key(sensor)) {
+                return Err(Fault::range(&key("sensor")));
+            }
+            needed(row.value.is_some() || row.measure == Noise, "value")?;
+            if row.value == Some(0.0) {
+                return Err(Fault::range(&key("value")));
+            }
+            check_after(case, row, key)
+        }
+        Period => {
+            needed(row.value.is_some(), "value")?;
+            positive(row.value, "value")?;
+            check_after(case, row, key)
+        }
+        _ => check_after(case, row, key),
+    }
+}
+
+/// Something comes after it.
+fn check_after(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let within = row.after.is_none_or(|after| (0.0..case.time.end).contains(&after));
+    if within { Ok(()) } else { Err(Fault::range(&key("after"))) }
+}
+
 /// An extreme has a value and no profile, a profile the reverse, an error neither.
 fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     let Expectation { measure, value, profile, column, .. } = expectation;
@@ -158,6 +237,12 @@ pub(in crate::case) fn check_profiles(case: &Case) -> Result<(), Fault> {
         let key = format!("expect.{name}.profile");
         let profile = Profile::read(path, expectation.column.as_deref());
         let profile = profile.map_err(|error| Fault::reason(&key, error.to_string()))?;
+        if expectation.measure == Measure::Front {
+            return match profile.value.contains(&0.0) {
+                true => Err(Fault::reason(&key, "has a front at 0, and its error is relative")),
+                false => Ok(()),
+            };
+        }
         let length = match expectation.line {
             Some(Line::Y(_)) => case.domain.width,
             _ => case.domain.height,

@@ -5,6 +5,7 @@ mod effects;
 mod exact;
 mod expectations;
 mod layout;
+mod moving;
 mod sides;
 
 use super::fault::Fault;
@@ -21,6 +22,7 @@ const MOST_STEPS: f64 = 1e9;
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
+    moving::check(case)?;
     effects::check(case)?;
     sides::check(case)?;
     carried::check(case)?;

@@ -92,6 +92,11 @@ impl Canvas {
         });
     }
 
+    /// Width and height in pixels, and the three bytes of each.
+    pub fn raw(&self) -> (u32, u32, &[u8]) {
+        (self.image.width(), self.image.height(), self.image.as_raw())
+    }
+
     /// Writes the picture as PNG.
     ///
     /// # Errors

@@ -87,7 +87,7 @@ pub fn draw(
 fn wanted(case: &Case) -> Vec<(Component, Line)> {
     let mut lines: Vec<(Component, Line)> = Vec::new();
     let middle = [(Component::U, Line::X(0.5 * case.domain.width)), (Component::V, Line::Y(0.5 * case.domain.height))];
-    let expected = case.expect.values().filter_map(|row| Some((row.component, row.line?)));
+    let expected = case.expect.values().filter_map(|row| Some((row.component?, row.line?)));
     for line in middle.into_iter().chain(expected) {
         if !lines.iter().any(|&known| same(known, line)) {
             lines.push(line);
@@ -117,7 +117,7 @@ fn prepare(
     let mut marks = Vec::new();
     let mut legend = vec![(Sign::Line, "computed".to_owned())];
     let mut colours = CIRCLES.into_iter().cycle();
-    let here = |row: &Expectation| row.line.is_some_and(|line| same((row.component, line), wanted));
+    let here = |row: &Expectation| row.component.zip(row.line).is_some_and(|here| same(here, wanted));
     for (name, row) in case.expect.iter().filter(|(_, row)| here(row)) {
         let (sign, places, words) = match (measure.measured(row.measure), row.value, profiles.get(name)) {
             (Some(extreme), Some(value), _) => {
@@ -158,7 +158,7 @@ fn prepare(
 }
 
 /// The range of the values with a margin; a constant still has one.
-fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     if low > high {
         return (-1.0, 1.0);

@@ -8,6 +8,7 @@ mod colour;
 mod cost;
 mod frame;
 mod map;
+mod motion;
 mod panels;
 mod pressure;
 mod scale;
@@ -20,6 +21,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 pub use cost::draw_cost;
+pub use motion::{Film, draw_film, draw_films};
 pub use ticks::short;
 
 use canvas::Canvas;
