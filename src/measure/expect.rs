@@ -70,9 +70,7 @@ pub fn evaluate_run(
             let fail = |what: &str| MeasureError::Expectation { name: name.clone(), what: what.to_owned() };
             let component = || row.component.ok_or_else(|| fail("`component` is missing"));
             let found = match row.measure {
-                measure if measure.of_motion() => {
-                    history::found(case, row, rows, profiles.get(name)).map_err(|lacking| fail(lacking))?
-                }
+                measure if measure.of_motion() => history::found(case, row, rows, profiles.get(name)).map_err(fail)?,
                 Measure::Error => {
                     let component = component()?;
                     let known = Known::of(case).map(|known| FieldError::of_known(snapshot, &known, component));
