@@ -76,9 +76,7 @@ pub fn evaluate_run(
             let tracer = case.effects.tracers.iter().find(|tracer| Some(&tracer.name) == row.tracer.as_ref());
             let component = || row.component.ok_or_else(|| fail("`component` is missing"));
             let found = match row.measure {
-                measure if measure.of_motion() => {
-                    history::found(case, row, rows, profiles.get(name)).map_err(|lacking| fail(lacking))?
-                }
+                measure if measure.of_motion() => history::found(case, row, rows, profiles.get(name)).map_err(fail)?,
                 Measure::Slope => {
                     let side = row.side.ok_or_else(|| fail("`side` is missing"))?;
                     let field = snapshot.carried(TEMPERATURE);

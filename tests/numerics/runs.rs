@@ -49,7 +49,9 @@ fn a_number_that_is_none_stops_the_run_names_its_place_and_keeps_the_last_good_s
             let mut case = cavity(&[splitting, "output.report_every=25", "time.end=20.0"]);
             match (pressure, &mut case.effects.pressure) {
                 ("none", absent) => *absent = None,
-                ("collocated", Some(pressure)) => pressure.form = Some(stillpoint::case::PressureForm::Collocated),
+                ("collocated", Some(pressure)) => {
+                    (pressure.form, pressure.solver) = (Some(stillpoint::case::PressureForm::Collocated), None);
+                }
                 _ => {}
             }
             let name = format!("{splitting}, pressure {pressure}");

@@ -154,8 +154,8 @@ fn check_motion(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) ->
         ("value", row.value.is_some(), &[Sensor, Period]),
     ];
     let measured = row.measure.of_motion();
-    let given = stray.iter().chain(flow.iter().filter(|_| measured));
-    for (name, _, measures) in given.filter(|(_, given, measures)| *given && !measures.contains(&row.measure)) {
+    let mut given = stray.iter().chain(flow.iter().filter(|_| measured));
+    if let Some((name, _, measures)) = given.find(|(_, given, of)| *given && !of.contains(&row.measure)) {
         let words: Vec<&str> = measures.iter().map(|measure| measure.word()).collect();
         let to = if words.is_empty() { "other measures".to_owned() } else { format!("measures {}", words.join(", ")) };
         let reason = format!("belongs to the {to}, and measure is {:?}", row.measure.word());
