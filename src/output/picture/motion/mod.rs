@@ -119,7 +119,7 @@ pub fn draw_films(folder: &Path, films: &[Film], names: &[String]) -> Result<Vec
                     let state = film.frames.read(number)?;
                     Cell { words: at(state.time), state: Some(state), spacing }
                 }
-                None => Cell { words: format!("ended {}", at(film.time).replace(" =", " at")), state: None, spacing },
+                None => Cell { words: format!("ended at {} s", short(film.time, 4)), state: None, spacing },
             });
         }
     }
