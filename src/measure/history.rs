@@ -136,7 +136,7 @@ mod tests {
     fn rows() -> Vec<Row> {
         let at = |step: u64| {
             let time = 0.1 * step as f64;
-            let ripple = if step % 2 == 0 { 1.0 } else { -1.0 };
+            let ripple = if step.is_multiple_of(2) { 1.0 } else { -1.0 };
             let sensors = vec![if time < 0.45 { 1e6 } else { 100.0 + ripple }];
             Row { step, time, front: 1.0 + 2.0 * time, area: 1.0 - 0.1 * time, sensors, ..Row::default() }
         };

@@ -158,7 +158,7 @@ impl Plan {
         let pressure = effects.pressure.clone().unwrap_or_default();
         let (mut setup, mut drift, mut kick) = (Vec::new(), vec![KeepVelocity, ClearKick], Vec::new());
         let search = [BuildCells(standing), FindNeighbours(standing)];
-        if let Some(_) = &effects.viscosity {
+        if effects.viscosity.is_some() {
             setup.extend(search);
             match integral {
                 true => setup.push(AssembleIntegralLaplacian),
