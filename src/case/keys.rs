@@ -16,7 +16,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("cloud.arrangement", r#""regular", "jittered" or "random""#),
     ("cloud.spacing", "a length above 0, m"),
     ("cloud.jitter", "a number from 0 to below 0.5, in spacings"),
-    ("cloud.minimum_distance", "a number above 0 and at most 0.75, in spacings"),
+    ("cloud.minimum_distance", "a number from 0.1 to 0.75, in spacings"),
     ("cloud.seed", "a whole number from 0"),
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
