@@ -146,6 +146,14 @@ impl Scene {
         }
     }
 
+    /// Kinetic energy of the whole domain moving as fast as the fastest wall, or as the fastest fluid at first, m^4/s^2: walls
+    /// that drag it along give it no more. `None` where all are at rest.
+    pub fn energy_scale(&self) -> Option<f64> {
+        let square = self.initial_velocity().iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
+        let area = self.cloud.size.x * self.cloud.size.y;
+        (square > 0.0).then_some(0.5 * area * square)
+    }
+
     /// Lengths in time of a step of `dt` s.
     pub fn clock(&self, dt: f64) -> Clock {
         match self.plan.splitting {

@@ -8,4 +8,6 @@ mod hostile;
 /// Of the project.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| hostile::study(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    hostile::study(bytes);
+});

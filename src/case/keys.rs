@@ -39,6 +39,8 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("time.step", "a time above 0 and at most time.end, s"),
     ("time.steady", "a number above 0, m/s^2"),
     ("time.splitting", r#""reflection" or "projection""#),
+    ("guard.retries", "a whole number from 0 to 20"),
+    ("guard.energy", "a number above 1"),
     ("exact", "a table with the key solution"),
     ("exact.solution", r#""taylor_green" or "kovasznay""#),
     ("derivatives", "a table with the key field"),
@@ -122,7 +124,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 14] = [
+        let tables: [(&str, &[&str]); 15] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("fluid", fields::<Fluid>()),
@@ -132,6 +134,7 @@ mod tests {
             ("effects.pressure", fields::<Pressure>()),
             ("effects.advection", fields::<Advection>()),
             ("time", fields::<Time>()),
+            ("guard", fields::<Guard>()),
             ("exact", fields::<Exact>()),
             ("derivatives", fields::<KnownField>()),
             ("poisson", fields::<KnownField>()),

@@ -8,6 +8,7 @@ use crate::cpu;
 use crate::engine::{Engine, EngineError};
 use crate::gpu::adapter::{self, Candidate};
 use crate::gpu::{self, Gpu, GpuEngine};
+use crate::output::checkpoint::Head;
 use crate::scene::Scene;
 
 /// Opens the engine asked for; `auto` takes a hardware GPU if there is one, else the CPU, which beats a software one. A
@@ -24,6 +25,20 @@ pub(super) fn open(scene: &Arc<Scene>, arguments: &RunArguments) -> Result<Box<d
                 Some(Err(_)) | None => Ok(on_cpu(scene, precision)?),
             }
         }
+    }
+}
+
+/// Opens the engine that a checkpoint was written by: no other goes on to the same bits.
+pub(super) fn reopen(scene: &Arc<Scene>, head: &Head) -> Result<Box<dyn Engine>, CliError> {
+    let precision = match head.precision.as_str() {
+        "f32" => Precision::F32,
+        "f64" => Precision::F64,
+        other => return Err(CliError::UnknownEngine(format!("{other} numbers"))),
+    };
+    match head.engine.as_str() {
+        "cpu" => Ok(on_cpu(scene, Some(precision))?),
+        "gpu" => Ok(on_gpu(scene, &adapter::choose(head.adapter.as_deref())?, Some(precision))?),
+        other => Err(CliError::UnknownEngine(other.to_owned())),
     }
 }
 

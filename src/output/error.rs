@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::checkpoint::CheckpointTrouble;
 use crate::measure::MeasureError;
 
 #[derive(Debug, Error)]
@@ -26,6 +27,8 @@ pub enum OutputError {
     Json { path: PathBuf, source: serde_json::Error },
     #[error("{}: {source}", path.display())]
     Image { path: PathBuf, source: image::ImageError },
+    #[error("{}: {trouble}", path.display())]
+    Checkpoint { path: PathBuf, trouble: CheckpointTrouble },
     #[error("the built-in font could not be read")]
     Font,
     #[error(transparent)]

@@ -5,9 +5,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
+use super::file::PART;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
+    "checkpoint",
     "points.csv",
     "points.vtu",
     "diagnostics.csv",
@@ -38,11 +40,7 @@ impl RunFolder {
         let folder = Self { path: path.to_owned() };
         if force {
             for name in FILES {
-                let file = path.join(name);
-                match fs::remove_file(&file) {
-                    Err(error) if error.kind() != ErrorKind::NotFound => return Err(OutputError::io(&file)(error)),
-                    _ => {}
-                }
+                remove(&path.join(name))?;
             }
         } else if fs::read_dir(path).map_err(OutputError::io(path))?.next().is_some() {
             return Err(OutputError::NotEmpty(path.to_owned()));
@@ -61,8 +59,37 @@ impl RunFolder {
         Ok(Self { path: path.to_owned() })
     }
 
+    /// The folder of a run that is to go on. What a kill left half written is removed.
+    ///
+    /// # Errors
+    /// A path that is not a folder, errors of the file system.
+    pub fn resume(path: &Path) -> Result<Self, OutputError> {
+        let folder = Self::open(path)?;
+        for entry in fs::read_dir(path).map_err(OutputError::io(path))? {
+            let file = entry.map_err(OutputError::io(path))?.path();
+            let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let of_a_run = FILES.iter().any(|known| name.strip_prefix(known).is_some_and(|rest| rest.starts_with('.')));
+            if of_a_run && name.ends_with(PART) {
+                fs::remove_file(&file).map_err(OutputError::io(&file))?;
+            }
+        }
+        Ok(folder)
+    }
+
+    /// Of a run that came to its end.
+    ///
+    /// # Errors
+    /// Errors of the file system, but for a checkpoint that is not there.
+    pub fn remove_checkpoint(&self) -> Result<(), OutputError> {
+        remove(&self.checkpoint())
+    }
+
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    pub fn checkpoint(&self) -> PathBuf {
+        self.path.join("checkpoint")
     }
 
     pub fn points(&self) -> PathBuf {
@@ -102,6 +129,13 @@ impl RunFolder {
     }
 }
 
+fn remove(file: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::io(file)(error)),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,6 +159,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let folder = RunFolder::open(root.path()).unwrap();
         for path in [
+            folder.checkpoint(),
             folder.points(),
             folder.vtu(),
             folder.diagnostics(),

@@ -14,7 +14,7 @@ use crate::engine::{Engine, EngineError};
 use crate::gpu::adapter::{self, Candidate};
 use crate::gpu::{self, Gpu, GpuEngine};
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{Diagnostics, Observer, SimulationError, Stop, simulate};
+use crate::simulation::{Diagnostics, Observer, SimulationError, Stop, Trouble, simulate};
 use crate::{cpu, measure, run};
 
 /// What one run gave. The case is read before the clocks start, the error is measured after they stop.
@@ -159,7 +159,10 @@ impl Trial {
             Stop::Interrupted => return Ok(None),
             Stop::Steady => End::Steady,
             Stop::End => End::Time,
-            Stop::NonFinite { .. } => End::Diverged { after: outcome.snapshot.time },
+            Stop::Trouble { trouble: trouble @ (Trouble::Engine(_) | Trouble::Refused(_)), .. } => {
+                End::Failed { reason: trouble.to_string() }
+            }
+            Stop::Trouble { .. } => End::Diverged { after: outcome.snapshot.time },
         };
         let measured = match end.is_good() {
             true => measure::evaluate(&self.case, &outcome.snapshot, &run::profiles(&self.case)?)?.into_iter().next(),

@@ -1,4 +1,7 @@
-//! One run: steps until the end, a steady state, a request to stop, or trouble.
+//! One run: steps until the end, a steady state, a request to stop, or trouble that shorter steps do not mend.
+
+mod guard;
+mod state;
 
 use std::time::{Duration, Instant};
 
@@ -7,13 +10,15 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use crate::case::LONGEST_FORWARD;
 use crate::case::Splitting;
+use crate::case::{LONGEST_FORWARD, MOST_STEPS};
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
 use crate::known::Known;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
+pub use guard::{Limit, Trouble};
+pub use state::{Progress, State};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -35,6 +40,8 @@ pub struct Diagnostics {
     pub residual: f64,
     /// Largest rate of change of a velocity since the last row, m/s^2.
     pub change: f64,
+    /// What kept the step from being longer.
+    pub limit: Limit,
 }
 
 /// Told of a run as it goes: draws the bar, writes the rows, asks it to stop.
@@ -43,6 +50,8 @@ pub trait Observer {
     fn report(&mut self, row: &Diagnostics);
     /// True once the run is to stop after the steps it is in.
     fn stop_requested(&self) -> bool;
+    /// The run can go on from here: at its beginning, and after each row that was reported.
+    fn keep(&mut self, _: &State) {}
 }
 
 /// Watches nothing.
@@ -63,8 +72,8 @@ pub enum Stop {
     End,
     /// The observer asked.
     Interrupted,
-    /// A field turned non-finite in the steps that ended with this one.
-    NonFinite { field: NonFinite, place: DVec2, step: u64 },
+    /// Something went wrong in the steps that ended with this one, and again with every shorter step that was tried.
+    Trouble { trouble: Trouble, step: u64 },
 }
 
 /// What a run gave.
@@ -74,6 +83,9 @@ pub struct Outcome {
     pub steps: u64,
     /// The fields at the end; after trouble, at the last row of diagnostics before it.
     pub snapshot: Snapshot,
+    /// What the run could go on from: its state at the last row of diagnostics that was asked for. Empty of a problem
+    /// without time.
+    pub state: State,
     /// Solves that were handed to the direct solver.
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
@@ -98,6 +110,11 @@ pub enum SimulationError {
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
     NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+    #[error(
+        "time.end = {end}: steps of at most {longest:e} s ({limit}) make more than {MOST_STEPS:e} of them; \
+         allowed: a larger cloud.spacing, a smaller effects.viscosity.kinematic, or a sooner end"
+    )]
+    TooManySteps { end: f64, longest: f64, limit: Limit },
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
@@ -122,7 +139,18 @@ pub fn simulate(
     engine: &mut dyn Engine,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SimulationError> {
-    Run { scene, engine, observer, limit: f64::INFINITY, warnings: Vec::new() }.run()
+    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, warnings: Vec::new() }.run(None)
+}
+
+/// Goes on with a run of `scene` from a state that it was in; the rest is as in [`simulate`], and so are the numbers, to the
+/// last bit.
+pub fn resume(
+    scene: &Scene,
+    engine: &mut dyn Engine,
+    observer: &mut dyn Observer,
+    state: State,
+) -> Result<Outcome, SimulationError> {
+    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, warnings: Vec::new() }.run(Some(state))
 }
 
 struct Run<'a> {
@@ -131,17 +159,30 @@ struct Run<'a> {
     observer: &'a mut dyn Observer,
     /// Largest stable step of the viscous term, s.
     limit: f64,
+    /// m/s
+    wall_speed: f64,
     warnings: Vec<String>,
 }
 
+/// How the steps of one row ended.
+enum Row {
+    /// All of them done: the figures, and the state to go on from.
+    Full(Diagnostics, Box<State>),
+    Interrupted(Diagnostics),
+    Trouble(Trouble),
+}
+
 impl Run<'_> {
-    fn run(mut self) -> Result<Outcome, SimulationError> {
+    fn run(mut self, resumed: Option<State>) -> Result<Outcome, SimulationError> {
         let started = Instant::now();
         let any = self.scene.clock(1.0);
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.viscous_limit()?;
+        self.limit = match &resumed {
+            Some(state) => state.progress.viscous.unwrap_or(f64::INFINITY),
+            None => self.viscous_limit()?,
+        };
         let ladder = self.ladder()?;
         let setup = started.elapsed();
         if !self.scene.plan.flows {
@@ -152,75 +193,159 @@ impl Run<'_> {
         let time = &self.scene.case.time;
         let begun = self.scene.initial_velocity();
         let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-        let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
-        let mut dt = self.step(fastest(&begun), 0.0)?;
-        self.first_kick(dt)?;
-        let mut good = self.snapshot(0.0)?;
-        let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
-        let (mut fallbacks, mut iterations) = (0, 0);
-        let stop = loop {
-            if now >= time.end * (1.0 - 1e-12) {
-                break Stop::End;
+        self.wall_speed = fastest(&begun[self.scene.sizes.interior..]);
+        let mut good = match resumed {
+            Some(state) => {
+                state.write(self.engine)?;
+                self.warnings.clone_from(&state.progress.warnings);
+                state
             }
-            let asked = self.scene.case.output.report_every;
-            let left = steps_in(time.end - now, dt);
-            let (row_start, mut done) = (now, 0_u32);
-            let mut trouble = None;
-            let count = (f64::from(asked)).min(left) as u32;
-            let interrupted = loop {
-                let clock = self.scene.clock(dt);
-                let some = stretch(count - done, started.elapsed(), step);
-                let advance = self.engine.advance(some, &clock)?;
-                done += advance.steps;
-                step += u64::from(advance.steps);
-                // Not step by step: the time must not depend on how long the stretches were.
-                now = row_start + f64::from(done) * dt;
-                iterations += advance.iterations;
-                fallbacks += u64::from(advance.fallbacks);
-                if let Some(field) = advance.trouble {
-                    trouble = Some(field);
-                    break false;
+            None => self.begin(fastest(&begun))?,
+        };
+        let mut progress = good.progress.clone();
+        let mut taken = 0;
+        let (stop, snapshot) = loop {
+            if progress.time >= time.end * (1.0 - 1e-12) {
+                break (Stop::End, self.snapshot(progress.time)?);
+            }
+            if progress.steady_rows == STEADY_ROWS {
+                break (Stop::Steady, self.snapshot(progress.time)?);
+            }
+            let limit = self.next_step(&mut progress);
+            let row = limit.and_then(|limit| self.row(&mut progress, limit, &started, &mut taken));
+            let step = progress.step;
+            let interrupted = match row {
+                Ok(Row::Full(row, state)) => {
+                    self.observer.report(&row);
+                    good = *state;
+                    self.observer.keep(&good);
+                    self.observer.stop_requested()
                 }
-                if done >= count {
-                    break false;
+                Ok(Row::Interrupted(row)) => {
+                    self.observer.report(&row);
+                    true
                 }
-                if self.observer.stop_requested() {
-                    break true;
+                Ok(Row::Trouble(trouble)) => {
+                    if trouble.may_be_mended() && good.progress.halvings < self.scene.case.guard.retries {
+                        progress = self.go_back(&mut good, &trouble, step)?;
+                        continue;
+                    }
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
+                }
+                Err(error) if step == 0 => return Err(error),
+                Err(error) => {
+                    let trouble = Trouble::Refused(error.to_string());
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
                 }
             };
-            if let Some(field) = trouble {
-                let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
-                break Stop::NonFinite { field, place, step };
+            if interrupted {
+                break (Stop::Interrupted, self.snapshot(progress.time)?);
             }
-            let measured = self.engine.measure(now - row_start)?;
-            let solve = self.engine.solve_info();
-            let row = Diagnostics {
-                step,
-                time: now,
-                dt,
-                kinetic_energy: measured.kinetic_energy,
-                max_speed: measured.max_speed,
-                divergence: measured.divergence,
-                pressure_iterations: solve.iterations,
-                residual: solve.last_residual * dt * self.scene.clock(dt).kick / self.scene.constants.density,
-                change: measured.change,
-            };
-            self.observer.report(&row);
-            good = self.snapshot(now)?;
-            if interrupted || self.observer.stop_requested() {
-                break Stop::Interrupted;
-            }
-            steady_rows = if time.steady.is_some_and(|least| row.change < least) { steady_rows + 1 } else { 0 };
-            if steady_rows == STEADY_ROWS {
-                break Stop::Steady;
-            }
-            let next = self.step(wall_speed.max(row.max_speed), now)?;
-            self.change_step(next / dt)?;
-            dt = next;
         };
         let stepping = started.elapsed();
         let warnings = self.warnings;
-        Ok(Outcome { stop, steps: step, snapshot: good, fallbacks, iterations, ladder, setup, stepping, warnings })
+        let Progress { step: steps, fallbacks, iterations, .. } = match stop {
+            Stop::Trouble { step, .. } => Progress { step, ..progress },
+            _ => progress,
+        };
+        Ok(Outcome { stop, steps, snapshot, state: good, fallbacks, iterations, ladder, setup, stepping, warnings })
+    }
+
+    /// The first half kick, and the state after it.
+    fn begin(&mut self, speed: f64) -> Result<State, SimulationError> {
+        let (dt, _) = self.step(speed, 0.0, 0)?;
+        self.first_kick(dt)?;
+        let viscous = Some(self.limit).filter(|limit| limit.is_finite());
+        let warnings = self.warnings.clone();
+        let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);
+        let progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
+        let good = State::read(self.scene, self.engine, &progress)?;
+        self.observer.keep(&good);
+        Ok(good)
+    }
+
+    /// Chooses the length of the steps of the row to come.
+    fn next_step(&mut self, progress: &mut Progress) -> Result<Limit, SimulationError> {
+        let (next, limit) = self.step(progress.speed, progress.time, progress.halvings)?;
+        self.change_step(next / progress.dt)?;
+        progress.dt = next;
+        Ok(limit)
+    }
+
+    /// The steps until the next row of diagnostics, and that row. `taken` counts the steps since `started`.
+    fn row(
+        &mut self,
+        progress: &mut Progress,
+        limit: Limit,
+        started: &Instant,
+        taken: &mut u64,
+    ) -> Result<Row, SimulationError> {
+        let dt = progress.dt;
+        let asked = self.scene.case.output.report_every;
+        let left = steps_in(self.scene.case.time.end - progress.time, dt);
+        let (row_start, mut done) = (progress.time, 0_u32);
+        let count = (f64::from(asked)).min(left) as u32;
+        let clock = self.scene.clock(dt);
+        let interrupted = loop {
+            let some = stretch(count - done, started.elapsed(), *taken);
+            let advance = match self.engine.advance(some, &clock) {
+                Ok(advance) => advance,
+                Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
+            };
+            done += advance.steps;
+            *taken += u64::from(advance.steps);
+            progress.step += u64::from(advance.steps);
+            // Not step by step: the time must not depend on how long the stretches were.
+            progress.time = row_start + f64::from(done) * dt;
+            progress.iterations += advance.iterations;
+            progress.fallbacks += u64::from(advance.fallbacks);
+            if let Some(field) = advance.trouble {
+                return Ok(Row::Trouble(self.lost(field)));
+            }
+            if done >= count {
+                break false;
+            }
+            if self.observer.stop_requested() {
+                break true;
+            }
+        };
+        let measured = match self.engine.measure(progress.time - row_start) {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
+        };
+        let solve = self.engine.solve_info();
+        let row = Diagnostics {
+            step: progress.step,
+            time: progress.time,
+            dt,
+            kinetic_energy: measured.kinetic_energy,
+            max_speed: measured.max_speed,
+            divergence: measured.divergence,
+            pressure_iterations: solve.iterations,
+            residual: solve.last_residual * dt * clock.kick / self.scene.constants.density,
+            change: measured.change,
+            limit,
+        };
+        if let Some(trouble) = self.watch(&row)? {
+            return Ok(Row::Trouble(trouble));
+        }
+        if interrupted {
+            return Ok(Row::Interrupted(row));
+        }
+        progress.speed = self.wall_speed.max(row.max_speed);
+        let steady = self.scene.case.time.steady.is_some_and(|least| row.change < least);
+        progress.steady_rows = if steady { progress.steady_rows + 1 } else { 0 };
+        progress.warnings.clone_from(&self.warnings);
+        let state = State::read(self.scene, self.engine, progress)?;
+        Ok(match state.non_finite(self.scene) {
+            Some(field) => Row::Trouble(self.lost(field)),
+            None => Row::Full(row, Box::new(state)),
+        })
+    }
+
+    fn lost(&self, field: NonFinite) -> Trouble {
+        let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
+        Trouble::NonFinite { field, place }
     }
 
     /// A problem without time: its operations, once.
@@ -242,7 +367,8 @@ impl Run<'_> {
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
         let warnings = self.warnings;
-        Ok(Outcome { stop: Stop::End, steps: 0, snapshot, fallbacks, iterations, ladder, setup, stepping, warnings })
+        let (stop, state) = (Stop::End, State::default());
+        Ok(Outcome { stop, steps: 0, snapshot, state, fallbacks, iterations, ladder, setup, stepping, warnings })
     }
 
     /// The clock by which the tolerance of a pressure solve is relative to the root mean square of its source.
@@ -274,21 +400,32 @@ impl Run<'_> {
         Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
     }
 
-    /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.
-    fn step(&mut self, speed: f64, now: f64) -> Result<f64, SimulationError> {
+    /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`; halved so many
+    /// times, and with what keeps it from being longer.
+    fn step(&mut self, speed: f64, now: f64, halvings: u32) -> Result<(f64, Limit), SimulationError> {
         let time = &self.scene.case.time;
         let spacing = self.scene.constants.spacing;
         let forward = self.scene.plan.drift.contains(&Operation::RemapForward);
-        let longest = time.step.unwrap_or_else(|| {
-            let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
-            let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
-            by_motion.min(self.limit)
-        });
+        let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
+        let (longest, limit) = match time.step {
+            Some(step) => (step, Limit::Fixed),
+            None if moves && time.courant * spacing / speed < self.limit => {
+                (time.courant * spacing / speed, Limit::Courant)
+            }
+            None if self.limit.is_finite() => (self.limit, Limit::Viscosity),
+            None => (f64::INFINITY, Limit::End),
+        };
+        let longest = longest * 0.5_f64.powi(halvings as i32);
+        let limit = if halvings > 0 { Limit::Guard } else { limit };
         let left = time.end - now;
         if left <= 0.0 {
-            return Ok(longest);
+            return Ok((longest, limit));
         }
         let dt = left / steps_in(left, longest);
+        // Nor a step that is no number, or none.
+        if left / dt > MOST_STEPS || dt.is_nan() || dt <= 0.0 {
+            return Err(SimulationError::TooManySteps { end: time.end, longest, limit });
+        }
         let courant = dt * speed / spacing;
         if forward && courant > LONGEST_FORWARD * (1.0 + 1e-9) {
             return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
@@ -297,7 +434,7 @@ impl Run<'_> {
             let limit = self.limit;
             self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
         }
-        Ok(dt)
+        Ok((dt, limit))
     }
 
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
@@ -384,22 +521,37 @@ impl Run<'_> {
 
     /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
     fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
-        let points = self.scene.sizes.points;
-        let mut velocity = vec![DVec2::ZERO; points];
-        if self.scene.plan.flows
-            && let Data::Real(values) = self.engine.read(Buffer::Projected)?
-        {
-            velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
-        }
-        let mut pressure = vec![0.0; points];
-        if self.scene.plan.form.is_some()
-            && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
-        {
-            let mean = values[..points].iter().sum::<f64>() / points as f64;
-            pressure = values[..points].iter().map(|p| p - mean).collect();
-        }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
+        let Self { scene, engine, .. } = self;
+        snapshot(scene, time, &mut |buffer| engine.read(buffer))
     }
+
+    /// The same of a state, whatever has become of the engine since.
+    fn snapshot_of(&self, state: &State) -> Result<Snapshot, EngineError> {
+        let of = |buffer| state.array(buffer).cloned().ok_or(EngineError::Absent(buffer));
+        snapshot(self.scene, state.progress.time, &mut |buffer| of(buffer))
+    }
+}
+
+fn snapshot(
+    scene: &Scene,
+    time: f64,
+    read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>,
+) -> Result<Snapshot, EngineError> {
+    let points = scene.sizes.points;
+    let mut velocity = vec![DVec2::ZERO; points];
+    if scene.plan.flows
+        && let Data::Real(values) = read(Buffer::Projected)?
+    {
+        velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
+    }
+    let mut pressure = vec![0.0; points];
+    if scene.plan.form.is_some()
+        && let Data::Real(values) = read(Buffer::Pressure)?
+    {
+        let mean = values[..points].iter().sum::<f64>() / points as f64;
+        pressure = values[..points].iter().map(|p| p - mean).collect();
+    }
+    Ok(Snapshot { time, position: scene.cloud.position.clone(), velocity, pressure, derivatives: None })
 }
 
 /// Steps of at most `longest` that fill `left`, both in s: one rounding unit too many does not make one more.

@@ -1,0 +1,122 @@
+//! What is watched while a run goes, and the way back where it goes wrong.
+
+use std::fmt::{self, Display, Formatter};
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::{Diagnostics, Progress, Run, State};
+use crate::engine::{Data, EngineError, NonFinite};
+use crate::step::Buffer;
+
+/// What keeps a step from being longer.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Limit {
+    /// `time.courant`: how far points may move.
+    Courant,
+    /// The viscous term is stable up to there.
+    Viscosity,
+    /// `time.step` fixes it.
+    Fixed,
+    /// Nothing but the time that is left.
+    #[default]
+    End,
+    /// A run that went wrong goes on with shorter steps.
+    Guard,
+}
+
+impl Limit {
+    pub fn name(self) -> &'static str {
+        match self {
+            Limit::Courant => "courant",
+            Limit::Viscosity => "viscosity",
+            Limit::Fixed => "fixed",
+            Limit::End => "end",
+            Limit::Guard => "guard",
+        }
+    }
+}
+
+impl Display for Limit {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        out.write_str(self.name())
+    }
+}
+
+/// What went wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Trouble {
+    /// A field turned non-finite.
+    NonFinite { field: NonFinite, place: DVec2 },
+    /// More kinetic energy than walls and first velocity can account for, m^4/s^2; where the fluid is fastest.
+    Energy { found: f64, most: f64, place: DVec2 },
+    /// The engine could not go on.
+    Engine(EngineError),
+    /// No step could be chosen.
+    Refused(String),
+}
+
+impl Trouble {
+    /// Whether shorter steps may do what these could not.
+    pub(super) fn may_be_mended(&self) -> bool {
+        match self {
+            Trouble::NonFinite { .. } | Trouble::Energy { .. } => true,
+            Trouble::Engine(error) => {
+                matches!(error, EngineError::Direct(_) | EngineError::NeighbourOverflow { .. })
+            }
+            Trouble::Refused(_) => false,
+        }
+    }
+}
+
+impl Display for Trouble {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Trouble::NonFinite { field, place } => {
+                let (name, point) = (field.buffer.name(), field.point);
+                write!(out, "{name} of point {point} at ({}, {}) m turned non-finite", place.x, place.y)
+            }
+            Trouble::Energy { found, most, place } => write!(
+                out,
+                "the kinetic energy rose to {found:.2e} m^4/s^2, above {most:.2e}, fastest at ({}, {}) m",
+                place.x, place.y
+            ),
+            Trouble::Engine(error) => write!(out, "{error}"),
+            Trouble::Refused(reason) => write!(out, "{reason}"),
+        }
+    }
+}
+
+impl Run<'_> {
+    /// Looks at a row before it is reported: nothing that is not a finite number is written.
+    pub(super) fn watch(&mut self, row: &Diagnostics) -> Result<Option<Trouble>, EngineError> {
+        let Diagnostics { kinetic_energy: found, max_speed, divergence, residual, change, .. } = *row;
+        let most = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
+        let finite = [found, max_speed, divergence, residual, change].iter().all(|value| value.is_finite());
+        if finite && found <= most {
+            return Ok(None);
+        }
+        let place = self.fastest_place()?;
+        Ok(Some(Trouble::Energy { found, most, place }))
+    }
+
+    fn fastest_place(&mut self) -> Result<DVec2, EngineError> {
+        let Data::Real(velocity) = self.engine.read(Buffer::Projected)? else { return Ok(DVec2::ZERO) };
+        let speed = |point: usize| velocity[2 * point].hypot(velocity[2 * point + 1]);
+        let fastest = (0..self.scene.sizes.points).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
+        Ok(fastest.map_or(DVec2::ZERO, |point| self.scene.cloud.position[point]))
+    }
+
+    /// Puts the last good state back, to go on from there with half the step.
+    pub(super) fn go_back(&mut self, good: &mut State, trouble: &Trouble, step: u64) -> Result<Progress, EngineError> {
+        good.write(self.engine)?;
+        good.progress.halvings += 1;
+        self.warnings.push(format!(
+            "in or shortly before step {step} {trouble}; went back to step {} and on with half the step",
+            good.progress.step
+        ));
+        good.progress.warnings.clone_from(&self.warnings);
+        Ok(good.progress.clone())
+    }
+}

@@ -1,0 +1,19 @@
+//! What may not go wrong: runs that are killed, files of any content, scenes at the edge of what the method can do.
+//!
+//! Quick parts of each run with the other tests. The whole of them, some minutes:
+//! `cargo test --release --test hard -- --ignored --nocapture`.
+
+#[path = "../support/cases.rs"]
+mod cases;
+#[path = "../support/hostile.rs"]
+mod hostile;
+#[path = "../support/random.rs"]
+mod random;
+
+mod checkpoints;
+mod folders;
+mod kills;
+mod resuming;
+
+/// Of the project.
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
