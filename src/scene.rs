@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
-use crate::cloud::{Cloud, CloudError, grid, shortest};
+use crate::cloud::{Cloud, CloudError, first_apart, grid, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
@@ -30,6 +30,8 @@ pub struct Scene {
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
+    /// Groups of points out of each other's sight; 1 where all hang together.
+    pub groups: usize,
 }
 
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
@@ -72,6 +74,12 @@ pub enum SceneError {
         "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point {needed}"
     )]
     TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize, needed: usize },
+    #[error(
+        "effects.pressure.form = \"collocated\": the points fall into {groups} groups out of each other's sight, and point {point} \
+         at ({x}, {y}) m is not of the first: nothing ties their pressures together; allowed: \"conservative\", or a larger \
+         method.radius"
+    )]
+    Apart { groups: usize, point: usize, x: f64, y: f64 },
 }
 
 /// Two points nearer than this, in spacings, coincide: no derivative exists between them.
@@ -85,10 +93,17 @@ impl Scene {
 
     /// The same on points laid out by the caller.
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
+        cloud.check()?;
         let plan = Plan::new(case);
         let radius = case.method.radius() * cloud.spacing;
-        let grid = Grid::new(cloud.size, cloud.period, radius);
-        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
+        let (most, apart) = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
+        if let (Some((point, groups)), Some(PressureForm::Collocated)) = (apart, plan.form) {
+            let DVec2 { x, y } = cloud.position[point];
+            return Err(SceneError::Apart { groups, point, x, y });
+        }
+        // Not many more cells than points, however far these lie apart.
+        let room = (cloud.size.x * cloud.size.y / (4 * cloud.len() + 16) as f64).sqrt();
+        let grid = Grid::new(cloud.size, cloud.period, radius.max(room));
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
@@ -121,7 +136,8 @@ impl Scene {
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
         };
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
+        let (exact, groups) = (Exact::of(case), apart.map_or(1, |(_, groups)| groups));
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups })
     }
 
     /// The Voronoi cells; `None` unless the pressure is conservative.
@@ -297,8 +313,11 @@ impl Scene {
     }
 }
 
-/// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
+type Survey = (usize, Option<(usize, usize)>);
+
+/// The most neighbours that any point has within `radius`, and the first point that hangs together with no other group, with the
+/// number of groups; refuses points that coincide or stand alone.
+fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<Survey, SceneError> {
     let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
@@ -317,5 +336,6 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<us
         }
         Ok(found)
     };
-    (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))
+    let most = (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))?;
+    Ok((most, first_apart(&cloud.position, &grid, cloud.period, radius)))
 }

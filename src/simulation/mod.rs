@@ -184,6 +184,10 @@ impl Run<'_> {
             None => self.viscous_limit()?,
         };
         let ladder = self.ladder()?;
+        if self.scene.groups > 1 && resumed.is_none() {
+            let groups = self.scene.groups;
+            self.warnings.push(format!("the points fall into {groups} groups out of each other's sight"));
+        }
         let setup = started.elapsed();
         if !self.scene.plan.flows {
             return self.once(ladder, setup);
@@ -430,7 +434,7 @@ impl Run<'_> {
         if forward && courant > LONGEST_FORWARD * (1.0 + 1e-9) {
             return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
         }
-        if dt > self.limit && self.warnings.is_empty() {
+        if dt > self.limit && !self.warnings.iter().any(|warning| warning.starts_with("time.step")) {
             let limit = self.limit;
             self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
         }
@@ -486,7 +490,12 @@ impl Run<'_> {
         let mut trial = vec![DVec2::ZERO; interior];
         trial.iter_mut().for_each(|value| *value = DVec2::new(unit(), unit()));
         let mut radius = 0.0;
-        let clock = Clock { dt: 1.0, kick: 1.0, second_kick: 1.0 };
+        // In the time that diffusion takes over a spacing the operator's numbers are near 1, whatever the units.
+        let unit = self.scene.constants.spacing.powi(2) / self.scene.constants.viscosity;
+        if !unit.is_finite() {
+            return Ok(f64::INFINITY);
+        }
+        let clock = Clock { dt: unit, kick: unit, second_kick: 1.0 };
         for _ in 0..POWER_ITERATIONS {
             let norm = trial.iter().map(|value| value.length_squared()).sum::<f64>().sqrt();
             trial.iter_mut().for_each(|value| *value /= norm);
@@ -499,7 +508,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(VISCOUS_SAFETY * 2.0 / radius)
+        Ok(VISCOUS_SAFETY * 2.0 / radius * unit)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::timed::Timed;
 use super::{EngineKind, Precision, Trial};
+use crate::case::{Case, Guard};
 use crate::engine::{Engine, EngineError};
 use crate::gpu::adapter::{self, Candidate};
 use crate::gpu::{self, Gpu, GpuEngine};
@@ -139,7 +140,9 @@ impl Trial {
         (cpu, wall): (ProcessTime, Instant),
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Run>, Failure> {
-        let scene = Arc::new(Scene::build(&self.case)?);
+        // A setting is measured as it is: with the steps that it asks for, or not at all.
+        let guard = Guard { retries: 0, ..self.case.guard.clone() };
+        let scene = Arc::new(Scene::build(&Case { guard, ..self.case.clone() })?);
         let mut engine = self.open(&scene, gpu)?;
         let mut engine = Timed::new(engine.as_mut(), &scene.plan);
         let opened = wall.elapsed().as_secs_f64();

@@ -9,9 +9,13 @@ mod cases;
 mod hostile;
 #[path = "../support/random.rs"]
 mod random;
+#[path = "../support/spoiled.rs"]
+mod spoiled;
 
 mod checkpoints;
+mod flow;
 mod folders;
+mod guards;
 mod kills;
 mod resuming;
 
