@@ -18,6 +18,7 @@ mod folders;
 mod guards;
 mod kills;
 mod resuming;
+mod scenes;
 
 /// Of the project.
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
