@@ -199,7 +199,9 @@ fn trouble(outcome: &Outcome) -> Option<String> {
         Trouble::Engine(EngineError::Device(_)) => "go on with it by `stillpoint resume`, or run it with --engine cpu",
         Trouble::Engine(_) => "try another effects.pressure.solver, or more regular points",
         Trouble::Energy { .. } => "try a smaller time.courant, a smaller cloud.spacing, or a larger guard.energy",
-        Trouble::NonFinite { .. } | Trouble::Refused(_) => "try a smaller time.courant or a smaller cloud.spacing",
+        Trouble::NonFinite { .. } | Trouble::Figure { .. } | Trouble::Refused(_) => {
+            "try a smaller time.courant or a smaller cloud.spacing"
+        }
     };
     Some(format!(
         "in or shortly before step {step} {trouble}{tries}; kept: the state after step {} at {} s; {remedy}",

@@ -51,6 +51,8 @@ pub enum Trouble {
     NonFinite { field: NonFinite, place: DVec2 },
     /// More kinetic energy than walls and first velocity can account for, m^4/s^2; where the fluid is fastest.
     Energy { found: f64, most: f64, place: DVec2 },
+    /// A figure of a row of diagnostics that is no finite number.
+    Figure { name: &'static str, value: f64, place: DVec2 },
     /// The engine could not go on.
     Engine(EngineError),
     /// No step could be chosen.
@@ -61,7 +63,7 @@ impl Trouble {
     /// Whether shorter steps may do what these could not.
     pub(super) fn may_be_mended(&self) -> bool {
         match self {
-            Trouble::NonFinite { .. } | Trouble::Energy { .. } => true,
+            Trouble::NonFinite { .. } | Trouble::Energy { .. } | Trouble::Figure { .. } => true,
             Trouble::Engine(error) => {
                 matches!(error, EngineError::Direct(_) | EngineError::NeighbourOverflow { .. })
             }
@@ -82,6 +84,9 @@ impl Display for Trouble {
                 "the kinetic energy rose to {found:.2e} m^4/s^2, above {most:.2e}, fastest at ({}, {}) m",
                 place.x, place.y
             ),
+            Trouble::Figure { name, value, place } => {
+                write!(out, "the {name} was {value}, the fluid fastest at ({}, {}) m", place.x, place.y)
+            }
             Trouble::Engine(error) => write!(out, "{error}"),
             Trouble::Refused(reason) => write!(out, "{reason}"),
         }
@@ -91,14 +96,23 @@ impl Display for Trouble {
 impl Run<'_> {
     /// Looks at a row before it is reported: nothing that is not a finite number is written.
     pub(super) fn watch(&mut self, row: &Diagnostics) -> Result<Option<Trouble>, EngineError> {
-        let Diagnostics { kinetic_energy: found, max_speed, divergence, residual, change, .. } = *row;
+        let figures = [
+            ("max_speed", row.max_speed),
+            ("kinetic_energy", row.kinetic_energy),
+            ("divergence", row.divergence),
+            ("residual", row.residual),
+            ("change", row.change),
+        ];
+        let lost = figures.into_iter().find(|(_, value)| !value.is_finite());
         let most = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
-        let finite = [found, max_speed, divergence, residual, change].iter().all(|value| value.is_finite());
-        if finite && found <= most {
+        if lost.is_none() && row.kinetic_energy <= most {
             return Ok(None);
         }
         let place = self.fastest_place()?;
-        Ok(Some(Trouble::Energy { found, most, place }))
+        Ok(Some(match lost {
+            Some((name, value)) => Trouble::Figure { name, value, place },
+            None => Trouble::Energy { found: row.kinetic_energy, most, place },
+        }))
     }
 
     fn fastest_place(&mut self) -> Result<DVec2, EngineError> {

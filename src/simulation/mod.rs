@@ -111,7 +111,7 @@ pub enum SimulationError {
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
     NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
     #[error(
-        "time.end = {end}: steps of at most {longest:e} s ({limit}) make more than {MOST_STEPS:e} of them; \
+        "time.end = {end:e}: steps of at most {longest:e} s ({limit}) make more than {MOST_STEPS:e} of them; \
          allowed: a larger cloud.spacing, a smaller effects.viscosity.kinematic, or a sooner end"
     )]
     TooManySteps { end: f64, longest: f64, limit: Limit },

@@ -19,6 +19,11 @@ mod guards;
 mod kills;
 mod resuming;
 mod scenes;
+mod table;
+mod table_of_input;
+mod table_of_points;
+mod table_of_pressure;
+mod table_of_time;
 
 /// Of the project.
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
