@@ -1,5 +1,6 @@
 //! Which engine runs a scene, from what the command line asks for.
 
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use super::CliError;
@@ -12,7 +13,7 @@ use crate::output::checkpoint::Head;
 use crate::scene::Scene;
 
 /// Opens the engine asked for; `auto` takes a hardware GPU if there is one, else the CPU, which beats a software one. A
-/// hardware GPU that will not open, or that the scene does not fit on, leaves `auto` to the CPU too.
+/// hardware GPU that will not open, or that the scene does not fit on, leaves `auto` to the CPU too, with a note that says why.
 pub(super) fn open(scene: &Arc<Scene>, arguments: &RunArguments) -> Result<Box<dyn Engine>, CliError> {
     let Asked { engine, adapter, precision } = Asked::new(arguments)?;
     match engine {
@@ -20,9 +21,14 @@ pub(super) fn open(scene: &Arc<Scene>, arguments: &RunArguments) -> Result<Box<d
         EngineChoice::Gpu => Ok(on_gpu(scene, &adapter::choose(adapter)?, precision)?),
         EngineChoice::Auto => {
             let hardware = adapter::list().into_iter().find(|candidate| !candidate.info.software);
-            match hardware.map(|candidate| on_gpu(scene, &candidate, precision)) {
-                Some(Ok(engine)) => Ok(engine),
-                Some(Err(_)) | None => Ok(on_cpu(scene, precision)?),
+            match hardware.map(|candidate| (on_gpu(scene, &candidate, precision), candidate.info.name)) {
+                Some((Ok(engine), _)) => Ok(engine),
+                Some((Err(error), name)) => {
+                    // A closed standard error leaves the summary to tell which engine it was.
+                    let _ = writeln!(io::stderr(), "note: on the CPU, for {name} will not do: {error}");
+                    Ok(on_cpu(scene, precision)?)
+                }
+                None => Ok(on_cpu(scene, precision)?),
             }
         }
     }

@@ -75,7 +75,9 @@ impl CliError {
             | CliError::AdapterOnCpu
             | CliError::Scene { .. }
             | CliError::Reference(_)
-            | CliError::Engine(EngineError::TooLarge { .. } | EngineError::Adapter(_))
+            | CliError::Engine(
+                EngineError::TooLarge { .. } | EngineError::OutOfMemory { .. } | EngineError::Adapter(_),
+            )
             | CliError::Simulation(SimulationError::TooFastForForward { .. })
             | CliError::UnknownEngine(_)
             | CliError::Over { .. }

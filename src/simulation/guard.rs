@@ -52,7 +52,7 @@ pub enum Trouble {
     /// More kinetic energy than walls and first velocity can account for, m^4/s^2; where the fluid is fastest.
     Energy { found: f64, most: f64, place: DVec2 },
     /// A figure of a row of diagnostics that is no finite number.
-    Figure { name: &'static str, value: f64, place: DVec2 },
+    Figure { name: &'static str, place: DVec2 },
     /// The engine could not go on.
     Engine(EngineError),
     /// No step could be chosen.
@@ -84,8 +84,8 @@ impl Display for Trouble {
                 "the kinetic energy rose to {found:.2e} m^4/s^2, above {most:.2e}, fastest at ({}, {}) m",
                 place.x, place.y
             ),
-            Trouble::Figure { name, value, place } => {
-                write!(out, "the {name} was {value}, the fluid fastest at ({}, {}) m", place.x, place.y)
+            Trouble::Figure { name, place } => {
+                write!(out, "the {name} was no finite number, the fluid fastest at ({}, {}) m", place.x, place.y)
             }
             Trouble::Engine(error) => write!(out, "{error}"),
             Trouble::Refused(reason) => write!(out, "{reason}"),
@@ -104,13 +104,13 @@ impl Run<'_> {
             ("change", row.change),
         ];
         let lost = figures.into_iter().find(|(_, value)| !value.is_finite());
-        let most = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
+        let most = self.most_energy;
         if lost.is_none() && row.kinetic_energy <= most {
             return Ok(None);
         }
         let place = self.fastest_place()?;
         Ok(Some(match lost {
-            Some((name, value)) => Trouble::Figure { name, value, place },
+            Some((name, _)) => Trouble::Figure { name, place },
             None => Trouble::Energy { found: row.kinetic_energy, most, place },
         }))
     }

@@ -139,7 +139,8 @@ pub fn simulate(
     engine: &mut dyn Engine,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SimulationError> {
-    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, warnings: Vec::new() }.run(None)
+    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, most_energy: f64::MAX, warnings: Vec::new() }
+        .run(None)
 }
 
 /// Goes on with a run of `scene` from a state that it was in; the rest is as in [`simulate`], and so are the numbers, to the
@@ -150,7 +151,8 @@ pub fn resume(
     observer: &mut dyn Observer,
     state: State,
 ) -> Result<Outcome, SimulationError> {
-    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, warnings: Vec::new() }.run(Some(state))
+    Run { scene, engine, observer, limit: f64::INFINITY, wall_speed: 0.0, most_energy: f64::MAX, warnings: Vec::new() }
+        .run(Some(state))
 }
 
 struct Run<'a> {
@@ -161,6 +163,8 @@ struct Run<'a> {
     limit: f64,
     /// m/s
     wall_speed: f64,
+    /// Kinetic energy above which something is wrong, m^4/s^2.
+    most_energy: f64,
     warnings: Vec<String>,
 }
 
@@ -197,6 +201,7 @@ impl Run<'_> {
         let time = &self.scene.case.time;
         let begun = self.scene.initial_velocity();
         let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+        self.most_energy = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
         self.wall_speed = fastest(&begun[self.scene.sizes.interior..]);
         let mut good = match resumed {
             Some(state) => {

@@ -19,6 +19,7 @@ mod guards;
 mod kills;
 mod resuming;
 mod scenes;
+mod soak;
 mod table;
 mod table_of_input;
 mod table_of_points;

@@ -4,6 +4,7 @@
 mod needed;
 mod runs;
 mod sources;
+mod trouble;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -91,7 +92,8 @@ fn periodic_scene() -> Scene {
 
 /// The adapter that the tests run on; `None` where those that need one are skipped.
 fn candidate() -> Option<Candidate> {
-    (!needed::skipped(&[include_str!("runs.rs")])).then(|| needed::required(adapter::choose(None)))
+    (!needed::skipped(&[include_str!("runs.rs"), include_str!("trouble.rs")]))
+        .then(|| needed::required(adapter::choose(None)))
 }
 
 /// An engine as it is made.
