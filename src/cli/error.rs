@@ -85,6 +85,7 @@ impl CliError {
             | CliError::Output(
                 OutputError::NotEmpty(_)
                 | OutputError::NotAFolder(_)
+                | OutputError::Busy(_)
                 | OutputError::Checkpoint { .. }
                 | OutputError::Csv { .. },
             ) => 2,

@@ -24,6 +24,7 @@ impl DiagnosticsWriter {
     /// Errors of the file system.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         let mut file = File::create(path).map_err(OutputError::io(path))?;
+        hold(&file);
         writeln!(file, "{HEADER}").map_err(OutputError::io(path))?;
         Ok(Self { path: path.to_owned(), file })
     }
@@ -63,6 +64,7 @@ impl DiagnosticsWriter {
         }
         write_whole(path, |file| file.write_all(&kept).map_err(OutputError::io(path)))?;
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
+        hold(&file);
         Ok(Self { path: path.to_owned(), file })
     }
 
@@ -108,6 +110,11 @@ impl DiagnosticsWriter {
     }
 }
 
+/// Others are to see that a run goes on here. Not every file system can tell them: then there is no more to do.
+fn hold(file: &File) {
+    let _ = file.try_lock();
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,6 +132,28 @@ mod tests {
         writer.append(&Diagnostics { step: 100, residual: 1e-7, ..row }).unwrap();
         let rows = "50,0.1,0.0,0.0,1.0,0.0,12,0.0,0.0,end\n100,0.1,0.0,0.0,1.0,0.0,12,1e-7,0.0,end\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("{HEADER}\n{rows}"));
+    }
+
+    #[test]
+    fn a_file_is_gone_on_with_after_the_row_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnostics.csv");
+        let whole = format!("{HEADER}\n5,0.1\n10,0.2\n15,0.3\n");
+        let resumed = |text: &str, step: u64| {
+            std::fs::write(&path, text).unwrap();
+            let resumed = DiagnosticsWriter::resume(&path, step).map(|_| ()).map_err(|error| error.to_string());
+            resumed.map(|()| std::fs::read_to_string(&path).unwrap())
+        };
+        assert_eq!(resumed(&whole, 10), Ok(format!("{HEADER}\n5,0.1\n10,0.2\n")));
+        assert_eq!(resumed(&whole, 15), Ok(whole.clone()));
+        assert_eq!(resumed(&whole, 0), Ok(format!("{HEADER}\n")));
+        assert_eq!(resumed(&format!("{whole}1"), 15), Ok(whole.clone()), "half a row, whose number is a small one");
+        let lacks = resumed(&whole, 20).unwrap_err();
+        assert!(
+            lacks.ends_with("diagnostics.csv, line 4: the row of step 20, which the checkpoint is of, is not there")
+        );
+        assert!(resumed("step\n5\n", 5).unwrap_err().contains("line 1: not the header"));
+        assert!(resumed(&format!("{HEADER}\n5,0\nx\n"), 5).unwrap_err().contains("line 3: does not begin with"));
     }
 
     #[test]

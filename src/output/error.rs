@@ -13,6 +13,8 @@ pub enum OutputError {
     Io { path: PathBuf, source: std::io::Error },
     #[error("{} is not empty; choose another folder or overwrite it with --force", .0.display())]
     NotEmpty(PathBuf),
+    #[error("{}: another process is running there", .0.display())]
+    Busy(PathBuf),
     #[error("{} is not a folder", .0.display())]
     NotAFolder(PathBuf),
     #[error("{field} of point {point} is {value}: nothing is written that is not a finite number")]
