@@ -1,12 +1,13 @@
 //! What is watched while a run goes, the way back where it goes wrong, and what is left where nothing helps.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, SolveInfo};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Limit, Stop, Trouble};
+use stillpoint::simulation::{Limit, Progress, State, Stop, Trouble};
 use stillpoint::step::{Buffer, Operation};
 
 use crate::cases::cavity_of;
@@ -147,6 +148,36 @@ fn the_last_good_state_outlives_the_engine() {
     let Stop::Trouble { trouble: Trouble::Engine(error), .. } = &flow.outcome.stop else { panic!("{}", flow.end()) };
     assert_eq!((error, flow.outcome.state.progress.step, flow.rows.len()), (&gone(), 20, 2));
     assert!(flow.is_finite() && flow.outcome.snapshot.velocity.iter().any(|u| u.length() > 0.1));
+}
+
+/// What a row costs beside its steps: reading the state, and looking at every number of it.
+#[test]
+fn the_guards_cost_less_than_three_hundredths_of_a_step() {
+    let case = cavity_of(48, &["cloud.arrangement=jittered"]);
+    let scene = Arc::new(Scene::build(&case).expect("a scene"));
+    let mut engine = cpu::double(&scene).expect("an engine");
+    let clock = scene.clock(0.01);
+    for &operation in scene.plan.setup.iter().chain(&scene.plan.kick) {
+        engine.apply(operation, &clock).expect("an operation");
+    }
+    // The least of several times: other programs only add to them.
+    let (mut steps, mut guards) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..10 {
+        let started = Instant::now();
+        engine.advance(10, &clock).expect("steps");
+        steps = steps.min(started.elapsed().as_secs_f64() / 10.0);
+        let started = Instant::now();
+        let state = State::read(&scene, engine.as_mut(), &Progress::default()).expect("a state");
+        assert_eq!(state.non_finite(&scene), None);
+        guards = guards.min(started.elapsed().as_secs_f64());
+    }
+    let every = f64::from(case.output.report_every);
+    println!(
+        "guards: {:.2}% of a step a row, {:.3}% at a row every {every} steps",
+        100.0 * guards / steps,
+        100.0 * guards / steps / every
+    );
+    assert!(guards / every < 0.03 * steps, "{guards} s a row, {steps} s a step");
 }
 
 #[test]
