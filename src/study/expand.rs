@@ -89,8 +89,12 @@ impl<'a> Expansion<'a> {
         }
         let path = self.path.parent().unwrap_or(Path::new("")).join(&plan.case.0);
         let mut case = Case::load_changed(&path, &changes).map_err(|error| match error {
-            CaseError::Text(error) => fault(&plan.case.1, error.to_string()),
-            error => error,
+            CaseError::Text(error) => fault(&plan.case.1, error.to_string()).into(),
+            // A key that stands in the case, at odds with what the study makes of others.
+            error if error.is_in(&path) => {
+                StudyError::Case { path: self.path.to_owned(), setting: words.to_owned(), source: error }
+            }
+            error => error.into(),
         })?;
         let (error, at) = &plan.error;
         if !case.expect.contains_key(error) {

@@ -40,6 +40,8 @@ pub enum StudyError {
     #[error(transparent)]
     File(#[from] CaseError),
     #[error("{}: with {setting}: {source}", path.display())]
+    Case { path: PathBuf, setting: String, source: CaseError },
+    #[error("{}: with {setting}: {source}", path.display())]
     Scene { path: PathBuf, setting: String, source: SceneError },
 }
 

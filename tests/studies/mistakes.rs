@@ -41,6 +41,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("precision = [\"f32\", \"f64\"]", "ways = [{ label = 3 }]", "study.toml:10: vary.ways[0].label = 3: must be one line of text that names the choice"),
     ("precision = [\"f32\", \"f64\"]", "ways = [{ label = \"a\", cloud.spacing = 0.25 }]", "study.toml:9: cloud.spacing = 0.125: is varied by ways and by cloud.spacing"),
     ("precision = [\"f32\", \"f64\"]", "method.radius = [1.6]", "study.toml: with radius 1.6, 1/8: method.radius = 1.6: point 49 at (0, 0) m has 3 neighbours; allowed: a radius that gives every point 5"),
+    ("time.end = 0.5", "domain.periodic = \"y\"", "study.toml: with f32, 1/8: cases/cavity_re100_regular.toml:17: boundaries.top.velocity = [1.0, 0.0]: the domain repeats along y (domain.periodic), so that there is no wall; leave it out"),
     // Grids.
     ("[set]", "[[grid]]\nlabl = \"a\"\n[set]", "study.toml:6: grid[0].labl is not a key (did you mean grid[0].label?); [grid[0]] has label, case, error, along, set, vary"),
     ("[set]", "[[grid]]\ncase = \"none.toml\"\n[set]", "study.toml:6: grid[0].case = \"none.toml\": none.toml: no such file"),

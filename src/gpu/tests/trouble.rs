@@ -42,7 +42,7 @@ fn memory_that_runs_out_is_named() {
 fn a_shader_that_does_not_compile_is_named() {
     let Some(candidate) = candidate() else { return };
     let gpu = Gpu::open(&candidate, Precision::Single).expect("the adapter opens");
-    let error = launch::built(&gpu, "nonsense", "@compute fn main( {", &[]).err().expect("nonsense");
+    let error = launch::built(&gpu, "nonsense", "@compute fn main( {", &[]).expect_err("nonsense");
     let line = one_line(&error);
     assert!(matches!(error, EngineError::Shader { .. }), "{line}");
     assert!(line.starts_with("GPU: the driver does not take the shader nonsense: nonsense: "), "{line}");
