@@ -1,14 +1,19 @@
 //! A run in two is the run in one go, to the last bit: every engine of the CPU, on any number of threads.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::engine::{Data, Engine, EngineError};
+use stillpoint::output::checkpoint::Checkpoint;
+use stillpoint::output::{RunFolder, StopReason};
+use stillpoint::run::{self, Job};
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Diagnostics, Observer, Outcome, State, resume, simulate};
 
 use crate::cases::{ARRANGEMENTS, cavity_of, vortices, wake};
+use crate::folders::result;
 
 type Open = fn(&Arc<Scene>) -> Result<Box<dyn Engine>, EngineError>;
 
@@ -121,5 +126,44 @@ fn any_number_of_threads_goes_on_to_the_same_bits() {
     for threads in [2, 3] {
         let (outcome, _) = on(threads, Some(states[1].clone()));
         same(&outcome, &expected, &format!("{threads} threads"));
+    }
+}
+
+/// Asks for a stop after so many looks, in the middle of a row or between two.
+struct Impatient(std::cell::Cell<u32>);
+
+impl Observer for Impatient {
+    fn report(&mut self, _: &Diagnostics) {}
+
+    fn stop_requested(&self) -> bool {
+        self.0.set(self.0.get().saturating_sub(1));
+        self.0.get() == 0
+    }
+}
+
+/// What Ctrl-C leaves is complete, and what is gone on with is the run that was not stopped.
+#[test]
+fn a_stopped_run_keeps_its_state_unasked_and_goes_on_to_the_same_files() {
+    let case = cavity_of(16, &["cloud.arrangement=jittered", "time.end=2.0", "output.report_every=7"]);
+    let scene = Arc::new(Scene::build(&case).expect("a scene"));
+    let root = tempfile::tempdir().expect("a temporary folder");
+    let open = || cpu::double(&scene).expect("an engine");
+    let folder = |name: &str| RunFolder::create(&root.path().join(name), false).expect("a folder");
+    let whole = folder("whole");
+    fn job<'a>(scene: &'a Arc<Scene>, folder: &'a RunFolder) -> Job<'a> {
+        Job { case_path: Path::new("c.toml"), scene, folder, checkpoint_every: None }
+    }
+    run::run(job(&scene, &whole), open().as_mut(), &mut ()).expect("a run");
+    for looks in [1, 3] {
+        let stopped = folder(&format!("stopped after {looks}"));
+        let report = run::run(job(&scene, &stopped), open().as_mut(), &mut Impatient(looks.into())).expect("a run");
+        assert_eq!(report.summary.stop, StopReason::Interrupted);
+        let path = stopped.checkpoint();
+        let state = Checkpoint::read(&path).expect("a checkpoint").state(&scene, &path).expect("a state");
+        assert!(state.progress.step <= report.summary.steps && state.progress.step.is_multiple_of(7));
+        let report = run::resume(job(&scene, &stopped), state, open().as_mut(), &mut ()).expect("the rest");
+        assert_eq!(report.summary.stop, StopReason::End);
+        assert!(result(stopped.path()) == result(whole.path()), "after {looks} looks");
+        assert!(!path.exists());
     }
 }

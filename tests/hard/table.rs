@@ -10,6 +10,18 @@ use stillpoint::simulation::{Stop, Trouble};
 use crate::flow::Flow;
 use crate::{ROOT, table_of_input, table_of_points, table_of_pressure, table_of_time};
 
+const INTRODUCTION: &str = "\
+# Hard cases
+
+Scenes at the edge of what the method can do: what is promised of each, and what was measured, by
+`cargo test --test hard -- --ignored the_page`. The tests hold every row to its promise.
+
+Unless a row says otherwise: a lid-driven cavity at Re 100, 1 x 1 m, 16 spacings a side, to t = 1 s, on the CPU in f64. The
+error of a flow is that of its kinetic energy, against the same flow on undisturbed regular points; energies are over that of
+the whole domain moving as fast as its walls. A promise is a bound that a fair method keeps, and no record of what this one
+did: most errors are far below it.
+";
+
 /// What is promised.
 #[derive(Clone, Copy)]
 pub enum Promise {
@@ -156,13 +168,7 @@ fn every_hard_case_keeps_its_promise_and_stands_on_the_page() {
 #[test]
 #[ignore = "writes docs/hard_cases.md"]
 fn the_page() {
-    let mut page = "# Hard cases\n\nScenes at the edge of what the method can do: what is promised of each, and what was measured. \
-         By `cargo test --test hard -- --ignored the_page`; the tests hold every row to its promise.\n\n\
-         Unless a row says otherwise: a lid-driven cavity at Re 100, 1 x 1 m, 16 spacings a side, to t = 1 s, on the CPU in f64. The error of a \
-         flow is that of its kinetic energy, against the same flow on undisturbed regular points; energies are over that of the whole domain \
-         moving as fast as its walls. A promise is a bound that a fair method keeps, and no record of what this one did: \
-         errors are mostly far below it.\n"
-        .to_owned();
+    let mut page = INTRODUCTION.to_owned();
     let (mut count, mut kept) = (0, 0);
     for (title, rows) in all() {
         page += &format!("\n## {title}\n\n| case | promise | measured | |\n|---|---|---|---|\n");
