@@ -106,6 +106,9 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("line = { x = 0.5 }\nmeasure = \"minimum\"", "measure = \"minimum\"", "bad.toml:25: expect.u_min.line is missing: it must be { x = NUMBER } or { y = NUMBER }"),
     ("measure = \"minimum\"", "measure = \"error\"", "bad.toml:28: expect.u_min.measure = \"error\": there is no exact solution: the table exact is absent"),
     ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "component = \"velocity\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:26: expect.u_min.component = \"velocity\": belongs to the measure error"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nretries = 21", "bad.toml:24: guard.retries = 21: must be a whole number from 0 to 20"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nretries = -1", "bad.toml:24: guard.retries = -1: must be a whole number from 0 to 20"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nenergy = 1.0", "bad.toml:24: guard.energy = 1.0: must be a number above 1"),
     ("[expect.u_min]", "[expect.\"u min\"]", "bad.toml:25: expect.\"u min\" = {"),
 ];
 
