@@ -115,6 +115,22 @@ impl Run<'_> {
         }))
     }
 
+    /// Looks at the kinetic energy between two rows.
+    pub(super) fn watch_energy(&mut self) -> Result<Option<Trouble>, EngineError> {
+        let Data::Real(velocity) = self.engine.read(Buffer::Projected)? else { return Ok(None) };
+        let nominal = self.scene.cloud.size.x * self.scene.cloud.size.y / self.scene.sizes.points as f64;
+        let volume = |point: usize| self.scene.cells().map_or(nominal, |cells| cells.volume[point]);
+        let energy =
+            |point: usize| 0.5 * volume(point) * (velocity[2 * point].powi(2) + velocity[2 * point + 1].powi(2));
+        let found = (0..self.scene.sizes.points).map(energy).sum::<f64>();
+        let most = self.most_energy;
+        if found <= most {
+            return Ok(None);
+        }
+        let place = self.fastest_place()?;
+        Ok(Some(Trouble::Energy { found, most, place }))
+    }
+
     fn fastest_place(&mut self) -> Result<DVec2, EngineError> {
         let Data::Real(velocity) = self.engine.read(Buffer::Projected)? else { return Ok(DVec2::ZERO) };
         let speed = |point: usize| velocity[2 * point].hypot(velocity[2 * point + 1]);

@@ -126,6 +126,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
     })
 }
 
+/// Steps between two looks at the kinetic energy, where rows of diagnostics are further apart.
+const WATCH_EVERY: u32 = 50;
 /// Longest stretch of steps between two looks at the observer.
 const STRETCH: Duration = Duration::from_millis(250);
 /// Share of the viscous stability limit that a step uses.
@@ -241,9 +243,12 @@ impl Run<'_> {
                     }
                     break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
                 }
-                Err(error) if step == 0 => return Err(error),
+                Err(error) if step == 0 && progress.halvings == 0 => return Err(error),
                 Err(error) => {
-                    let trouble = Trouble::Refused(error.to_string());
+                    let trouble = match error {
+                        SimulationError::Engine(error) => Trouble::Engine(error),
+                        error => Trouble::Refused(error.to_string()),
+                    };
                     break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
                 }
             };
@@ -296,7 +301,7 @@ impl Run<'_> {
         let count = (f64::from(asked)).min(left) as u32;
         let clock = self.scene.clock(dt);
         let interrupted = loop {
-            let some = stretch(count - done, started.elapsed(), *taken);
+            let some = stretch(count - done, started.elapsed(), *taken).min(WATCH_EVERY - done % WATCH_EVERY);
             let advance = match self.engine.advance(some, &clock) {
                 Ok(advance) => advance,
                 Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
@@ -313,6 +318,11 @@ impl Run<'_> {
             }
             if done >= count {
                 break false;
+            }
+            if done % WATCH_EVERY == 0
+                && let Some(trouble) = self.watch_energy()?
+            {
+                return Ok(Row::Trouble(trouble));
             }
             if self.observer.stop_requested() {
                 break true;

@@ -99,6 +99,19 @@ fn energy_that_nothing_accounts_for_stops_a_run() {
     assert!(early < late, "{early}, {late}");
 }
 
+/// Rows that are far apart do not let it grow until numbers overflow.
+#[test]
+fn energy_is_looked_at_between_rows_too() {
+    let keys = ["time.step=0.1", "time.end=100.0", "effects.viscosity.kinematic=0.1", "output.report_every=1000"];
+    let mut case = cavity_of(16, &[&keys[..], &["guard.retries=0"]].concat());
+    case.effects.advection = None;
+    let flow = flow_of(&case).expect("a run");
+    let Stop::Trouble { trouble: Trouble::Energy { found, .. }, step } = flow.outcome.stop else {
+        panic!("{}", flow.end())
+    };
+    assert!(step == 50 && found.is_finite() && flow.is_finite(), "step {step}, {found}");
+}
+
 /// An engine that is gone after some steps, as a GPU that was pulled out.
 struct Lost {
     inner: Box<dyn Engine>,
