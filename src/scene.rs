@@ -56,6 +56,8 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// m/s^2; 0 without gravity.
+    pub gravity: DVec2,
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
@@ -131,6 +133,7 @@ impl Scene {
             lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
+            gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
@@ -162,12 +165,22 @@ impl Scene {
         }
     }
 
-    /// Kinetic energy of the whole domain moving as fast as the fastest wall, or as the fastest fluid at first, m^4/s^2: walls
-    /// that drag it along give it no more. `None` where all are at rest.
+    /// Kinetic energy of the whole domain moving as fast as the fastest wall, or as the fastest fluid at first, and as if it had
+    /// fallen through the domain, m^4/s^2: walls that drag it along give it no more. `None` where nothing moves it, and where
+    /// it may fall for ever.
     pub fn energy_scale(&self) -> Option<f64> {
         let square = self.initial_velocity().iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
-        let area = self.cloud.size.x * self.cloud.size.y;
-        (square > 0.0).then_some(0.5 * area * square)
+        let (gravity, size) = (self.constants.gravity, self.cloud.size);
+        let square = square + 2.0 * (gravity.abs() * size).element_sum();
+        let falls = self.balanced_gravity() != gravity;
+        (square > 0.0 && !falls).then_some(0.5 * size.x * size.y * square)
+    }
+
+    /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
+    /// begins with. Along an axis that has no walls nothing does.
+    pub fn balanced_gravity(&self) -> DVec2 {
+        let closed = self.constants.period.map(|length| f64::from(u8::from(length == 0.0)));
+        closed * self.constants.gravity
     }
 
     /// Lengths in time of a step of `dt` s.

@@ -33,6 +33,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),
     ("effects.advection.remap", r#""departure" or "forward""#),
+    ("effects.gravity.acceleration", "two numbers [along x, along y], m/s^2, not both 0"),
     ("time", "a table with the key end"),
     ("time.end", "a time above 0, s"),
     ("time.courant", "a number above 0 and at most 50, in spacings a step"),
@@ -124,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 15] = [
+        let tables: [(&str, &[&str]); 16] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("fluid", fields::<Fluid>()),
@@ -133,6 +134,7 @@ mod tests {
             ("effects.viscosity", fields::<Viscosity>()),
             ("effects.pressure", fields::<Pressure>()),
             ("effects.advection", fields::<Advection>()),
+            ("effects.gravity", fields::<Gravity>()),
             ("time", fields::<Time>()),
             ("guard", fields::<Guard>()),
             ("exact", fields::<Exact>()),

@@ -193,6 +193,7 @@ pub struct Effects {
     pub viscosity: Option<Viscosity>,
     pub pressure: Option<Pressure>,
     pub advection: Option<Advection>,
+    pub gravity: Option<Gravity>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -287,6 +288,14 @@ pub enum Remap {
     Departure,
     /// The paper's: fit at the moved points, evaluate each fit at its point's old place.
     Forward,
+}
+
+/// A force that is the same everywhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// m/s^2
+    pub acceleration: [f64; 2],
 }
 
 /// A field whose value and derivatives are known everywhere.

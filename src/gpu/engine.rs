@@ -76,6 +76,7 @@ impl GpuEngine {
             .iter()
             .map(|time| match time {
                 Time::Dt => clock.dt,
+                Time::Kick => clock.kick,
                 Time::SecondKick => clock.second_kick,
                 Time::Source => -density_per_kick,
                 Time::DensityPerKick => density_per_kick,

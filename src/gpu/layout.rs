@@ -93,6 +93,8 @@ numbered! {
     /// Entries of `clock`.
     Time {
         Dt = "CLOCK_DT",
+        /// How long the forces act, s.
+        Kick = "CLOCK_KICK",
         SecondKick = "CLOCK_SECOND_KICK",
         /// `-rho / kick`: of the conservative source.
         Source = "CLOCK_SOURCE",

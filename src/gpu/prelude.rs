@@ -137,6 +137,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("SIZE", constants.size),
         ("PERIOD", constants.period),
         ("PER_PERIOD", per_period),
+        ("GRAVITY", constants.gravity),
     ];
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));

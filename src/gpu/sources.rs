@@ -83,6 +83,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::Gradient => once(stage!("gradient", Points)),
         Operation::Laplacian => once(stage!("laplacian", Points)),
         Operation::ClearKick => once(stage!("clear_kick", Points)),
+        Operation::Gravity => once(stage!("gravity", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
         Operation::Predict => once(stage!("predict", Points)),

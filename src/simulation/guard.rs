@@ -15,6 +15,8 @@ use crate::step::Buffer;
 pub enum Limit {
     /// `time.courant`: how far points may move.
     Courant,
+    /// The same, of a point that falls from rest.
+    Gravity,
     /// The viscous term is stable up to there.
     Viscosity,
     /// `time.step` fixes it.
@@ -30,6 +32,7 @@ impl Limit {
     pub fn name(self) -> &'static str {
         match self {
             Limit::Courant => "courant",
+            Limit::Gravity => "gravity",
             Limit::Viscosity => "viscosity",
             Limit::Fixed => "fixed",
             Limit::End => "end",

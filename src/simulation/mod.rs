@@ -428,11 +428,13 @@ impl Run<'_> {
         let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
         let (longest, limit) = match time.step {
             Some(step) => (step, Limit::Fixed),
-            None if moves && time.courant * spacing / speed < self.limit => {
-                (time.courant * spacing / speed, Limit::Courant)
+            None => {
+                let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
+                let limits =
+                    [(self.limit, Limit::Viscosity), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
+                let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
+                limits.into_iter().fold((f64::INFINITY, Limit::End), shorter)
             }
-            None if self.limit.is_finite() => (self.limit, Limit::Viscosity),
-            None => (f64::INFINITY, Limit::End),
         };
         let longest = longest * 0.5_f64.powi(halvings as i32);
         let limit = if halvings > 0 { Limit::Guard } else { limit };
@@ -456,6 +458,15 @@ impl Run<'_> {
         Ok((dt, limit))
     }
 
+    /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
+    fn by_fall(&self) -> f64 {
+        let (gravity, spacing) = (self.scene.constants.gravity.length(), self.scene.constants.spacing);
+        match self.scene.case.effects.advection {
+            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
@@ -463,6 +474,11 @@ impl Run<'_> {
             return Ok(());
         }
         let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
+        let balance = clock.kick * self.scene.balanced_gravity();
+        if balance != DVec2::ZERO {
+            let inside = vec![balance; self.scene.sizes.interior];
+            self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
+        }
         for &operation in &self.scene.plan.kick {
             self.engine.apply(operation, &clock)?;
         }

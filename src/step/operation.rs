@@ -60,6 +60,8 @@ pub enum Operation {
     ClearKick,
     /// Estimates the velocity in the middle of the kick, `u + kick - pressure kick`, then forgets the kick.
     EstimateMiddle,
+    /// Adds `dt g` to the kick.
+    Gravity,
     /// Adds `dt nu lap u` to the kick.
     Viscosity(Stage),
     /// `u* = u + kick`.
@@ -115,6 +117,7 @@ impl Operation {
             Operation::KeepVelocity => "keep_velocity",
             Operation::ClearKick => "clear_kick",
             Operation::EstimateMiddle => "estimate_middle",
+            Operation::Gravity => "gravity",
             Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
@@ -173,7 +176,7 @@ impl Operation {
                 vec![Position(standing), Position(Points::Moved), Support(Points::Moved), plan.moving(), Coefficients]
             }
             Operation::KeepVelocity => vec![plan.moving()],
-            Operation::ClearKick => vec![],
+            Operation::ClearKick | Operation::Gravity => vec![],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
@@ -210,7 +213,7 @@ impl Operation {
             Operation::FitVelocity(_) => vec![Coefficients],
             Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
             Operation::MovePoints => vec![Position(Points::Moved)],
-            Operation::ClearKick | Operation::Viscosity(_) => vec![Kick],
+            Operation::ClearKick | Operation::Gravity | Operation::Viscosity(_) => vec![Kick],
             Operation::EstimateMiddle => vec![Projected, Kick],
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]

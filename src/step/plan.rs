@@ -157,14 +157,19 @@ impl Plan {
                 drift.extend([FitVelocity(moved), RemapForward]);
             }
         }
+        // Forces that reach the walls, whose velocity is then put back.
+        let pushes_walls = collocated || effects.gravity.is_some();
+        let uniform: &[Operation] = if effects.gravity.is_some() { &[Gravity] } else { &[] };
         let mut kick = vec![ClearKick];
+        kick.extend(uniform);
         if effects.viscosity.is_some() {
             kick.push(Viscosity(Stage::Start));
             if reflects {
                 kick.push(EstimateMiddle);
-                if collocated {
+                if pushes_walls {
                     kick.push(HoldWalls);
                 }
+                kick.extend(uniform);
                 kick.push(Viscosity(Stage::Middle));
             }
         }
@@ -186,9 +191,9 @@ impl Plan {
                 case::Gradient::Fit => CorrectByFit,
                 case::Gradient::Adjoint => CorrectByAdjoint,
             });
-            if collocated {
-                kick.push(HoldWalls);
-            }
+        }
+        if pushes_walls {
+            kick.push(HoldWalls);
         }
         if reflects {
             kick.push(Reflect);

@@ -29,6 +29,10 @@ fn a_row_says_what_limits_its_steps() {
     all(&[], Limit::Courant);
     all(&["effects.viscosity.kinematic=1.0", "time.end=0.02"], Limit::Viscosity);
     all(&["time.step=0.01"], Limit::Fixed);
+    all(
+        &["effects.gravity.acceleration=[0.0, -1e3]", "boundaries.top.velocity=[0.0, 0.0]", "time.end=0.1"],
+        Limit::Gravity,
+    );
     let mut still = cavity_of(16, &[]);
     still.effects.viscosity = None;
     still.effects.advection = None;

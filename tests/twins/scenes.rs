@@ -17,8 +17,10 @@ const ACROSS: usize = 16;
 /// leaves against CPU f64 is what rounding leaves, and not where a solve chose to stop.
 const TIGHT: &str = "effects.pressure.tolerance=1e-9";
 
+const GRAVITY: &str = "effects.gravity.acceleration=[0.3, -1.0]";
+
 /// What each scene changes in the cavity, by name.
-const CHANGES: [(&str, &[&str]); 10] = [
+const CHANGES: [(&str, &[&str]); 12] = [
     ("regular, conservative, departure, reflection, fit, cg", &[]),
     (
         "jittered, adjoint, cg, no weight",
@@ -72,6 +74,11 @@ const CHANGES: [(&str, &[&str]); 10] = [
             "effects.advection.remap=forward",
             "time.splitting=projection",
         ],
+    ),
+    ("jittered, gravity", &["cloud.arrangement=jittered", GRAVITY]),
+    (
+        "random, collocated, gravity",
+        &["cloud.arrangement=random", "method.radius=2.8", "effects.pressure.form=collocated", GRAVITY],
     ),
     ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
 ];

@@ -25,6 +25,12 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         let reason = format!("solves the equations with every effect, and the table effects.{lacking} is absent");
         return Err(Fault::reason("exact.solution", reason));
     }
+    if effects.gravity.is_some() {
+        return Err(Fault::reason(
+            "exact.solution",
+            "has no gravity, and there is effects.gravity; leave out one of them",
+        ));
+    }
     match exact.solution {
         Solution::TaylorGreen => taylor_green(&case.domain),
         Solution::Kovasznay => kovasznay(&case.domain),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
-use crate::cpu::operations::{conservative, derivative, kick};
+use crate::cpu::operations::{conservative, derivative, gravity, kick};
 use crate::cpu::real::Real;
 use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation};
@@ -17,6 +17,10 @@ impl<T: Real> CpuEngine<T> {
         match operation {
             Operation::ClearKick => {
                 with_taken!(self.fields, [kick = Buffer::Kick], kick.fill(T::zero()));
+            }
+            Operation::Gravity => {
+                let change = (clock.kick * constants.gravity).to_array().map(T::from_f64);
+                with_taken!(self.fields, [kick = Buffer::Kick], gravity::gravity(change, &mut kick));
             }
             Operation::EstimateMiddle => {
                 with_taken!(self.fields, [middle = Buffer::Projected, kick = Buffer::Kick], {

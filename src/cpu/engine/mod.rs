@@ -111,6 +111,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::RemapForward
             | Operation::KeepVelocity => self.drift(operation, clock),
             Operation::ClearKick
+            | Operation::Gravity
             | Operation::EstimateMiddle
             | Operation::Viscosity(_)
             | Operation::Predict

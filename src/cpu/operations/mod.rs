@@ -7,6 +7,7 @@ pub mod conservative;
 pub mod derivative;
 pub mod fit;
 pub mod fits;
+pub mod gravity;
 pub mod integral;
 pub mod kick;
 pub mod lists;

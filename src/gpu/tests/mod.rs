@@ -46,7 +46,7 @@ const CHANGES: [&[&str]; 5] = [
         "effects.advection.remap=\"forward\"",
         "cloud.arrangement=\"regular\"",
     ],
-    &["effects.pressure.solver=\"direct\""],
+    &["effects.pressure.solver=\"direct\"", "effects.gravity.acceleration=[0.3, -1.0]"],
     &[
         "effects.pressure.tolerance=1e-4",
         "method.weight=\"quadratic\"",

@@ -84,6 +84,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::RemapForward,
         Operation::KeepVelocity,
         Operation::ClearKick,
+        Operation::Gravity,
         Operation::EstimateMiddle,
         Operation::Viscosity(Stage::Start),
         Operation::Viscosity(Stage::Middle),
