@@ -128,6 +128,14 @@ fn scene(draw: &mut Draw) -> String {
         let reynolds = draw.magnitude(-3.0, 7.0);
         text += &format!("[effects.viscosity]\nkinematic = {:e}\n", speed * height / reynolds);
     }
+    if draw.one_in(5) && flow && (wild || exact.is_none()) {
+        let size = speed * speed / height * draw.magnitude(-3.0, 3.0);
+        text += &format!(
+            "[effects.gravity]\nacceleration = [{:e}, {:e}]\n",
+            size * draw.0.number(),
+            size * draw.0.number()
+        );
+    }
     if effects[1] {
         text += "[effects.pressure]\n";
         let collocated = draw.one_in(3) && (wild || !integral);
