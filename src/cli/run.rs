@@ -75,5 +75,9 @@ fn tell(summary: &Summary, folder: &RunFolder) -> Result<(), CliError> {
     for warning in &summary.warnings {
         print(format_args!("  warning: {warning}"))?;
     }
-    print(format_args!("written to {}", folder.path().display()))
+    print(format_args!("written to {}", folder.path().display()))?;
+    match folder.checkpoint().exists() {
+        true => print(format_args!("to go on: stillpoint resume {}", folder.path().display())),
+        false => Ok(()),
+    }
 }
