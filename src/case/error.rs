@@ -82,7 +82,7 @@ fn given(value: &Option<String>) -> String {
 }
 
 /// The text with its line breaks and other control characters escaped.
-pub(super) fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let escape = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
     text.chars().map(escape).collect()
 }

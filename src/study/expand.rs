@@ -9,6 +9,7 @@ use super::keys::{KNOBS, STUDY_FILE};
 use super::planned::Planned;
 use super::setting::{Knobs, Setting, Trial, in_words, refuse};
 use crate::case::document::Document;
+use crate::case::error::one_line;
 use crate::case::fault::Fault;
 use crate::case::load::{Change, explain};
 use crate::case::{Case, CaseError, keys};
@@ -92,7 +93,7 @@ impl<'a> Expansion<'a> {
             CaseError::Text(error) => fault(&plan.case.1, error.to_string()).into(),
             // A key that stands in the case, at odds with what the study makes of others.
             error if error.is_in(&path) => {
-                StudyError::Case { path: self.path.to_owned(), setting: words.to_owned(), source: error }
+                StudyError::Case { path: self.path.to_owned(), setting: one_line(words), source: error }
             }
             error => error.into(),
         })?;
@@ -117,7 +118,7 @@ impl<'a> Expansion<'a> {
         if case.point_estimate() > CHEAP || self.trials.iter().any(|trial| same(&trial.case)) {
             return Ok(());
         }
-        let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: words.to_owned(), source };
+        let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: one_line(words), source };
         Scene::build(case).map(|_| ()).map_err(failed)
     }
 }

@@ -22,6 +22,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("[vary]\ncloud.spacing = [0.125, 0.0625]\nprecision = [\"f32\", \"f64\"]\n", "", "study.toml: vary is missing: it must be a table of keys as in [set], each with a list of values"),
     // The case and what it expects.
     ("cases/cavity_re100_regular.toml", "cases/none.toml", "study.toml:2: case = \"cases/none.toml\": cases/none.toml: no such file"),
+    ("cases/cavity_re100_regular.toml", "a\\nb.toml", "study.toml:2: case = \"a\\nb.toml\": a\\nb.toml: no such file"),
     ("case = \"cases/cavity_re100_regular.toml\"\n", "", "study.toml: case is missing: it must be the path of a case file, from the study file's folder"),
     ("\"u_min\"", "\"u_mn\"", "study.toml:3: error = \"u_mn\": cases/cavity_re100_regular.toml has no [expect.u_mn] (did you mean u_min?); it has u_ghia, u_min, u_profile, v_ghia, v_max, v_min, v_profile"),
     // What is set and varied.
