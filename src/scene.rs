@@ -1,12 +1,15 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
+mod carried;
+mod sides;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
-use crate::cloud::{Cloud, CloudError, first_apart, grid, shortest};
+use crate::cloud::{Cloud, CloudError, OpenPoint, Side, first_apart, grid, open_points, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
@@ -26,12 +29,14 @@ pub struct Scene {
     pub constants: Constants,
     /// The flow that the case knows.
     exact: Option<Exact>,
-    /// Voronoi cells, where the plan's pressure is conservative.
+    /// Voronoi cells, where the plan has faces.
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
     /// Groups of points out of each other's sight; 1 where all hang together.
     pub groups: usize,
+    /// The points of slip sides and outlets.
+    open: Vec<OpenPoint>,
 }
 
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
@@ -56,13 +61,23 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// Where on the way back to a departure point the velocity is taken, over the step.
+    pub trace: f64,
     /// m/s^2; 0 without gravity.
     pub gravity: DVec2,
+    /// What a degree above the reference adds to it, `-beta g`, m/(s^2 K); 0 without buoyancy.
+    pub lift: DVec2,
+    /// K
+    pub reference_temperature: f64,
+    /// Largest stable step of the diffusion of the carried fields, s.
+    pub diffusion_limit: f64,
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
     /// Rounding units of the diagonal's product below which no pressure residual falls.
     pub floor: f64,
+    /// Whether the pressure is found but for a constant: not where fluid leaves at pressure 0.
+    pub singular: bool,
     /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
     pub shift: f64,
 }
@@ -109,20 +124,23 @@ impl Scene {
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
-        let cells = conservative.then(|| Cells::build(&cloud));
+        let cells = plan.has_faces().then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
         let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
+        let opens = plan.buffers().contains(&Buffer::OpenRow);
+        let open = if opens { open_points(&cloud, &case.boundaries, radius) } else { Vec::new() };
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
+            open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
-        let constants = Constants {
+        let mut constants = Constants {
             radius,
             weight: case.method.weight,
             order: case.method.order,
@@ -134,23 +152,43 @@ impl Scene {
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
+            trace: if case.velocity_changes() { 1.0 } else { 0.5 },
+            lift: DVec2::ZERO,
+            reference_temperature: 0.0,
+            diffusion_limit: carried::limit(case, cells.as_ref()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
-            shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
+            singular: !plan.outlets,
+            shift: match conservative {
+                true if plan.outlets => 0.0,
+                true => 4.0,
+                false => -4.0 / cloud.spacing.powi(2),
+            },
         };
+        if let Some(buoyancy) = &case.effects.buoyancy {
+            constants.lift = -buoyancy.expansion * constants.gravity;
+            constants.reference_temperature = buoyancy.reference;
+        }
         let (exact, groups) = (Exact::of(case), apart.map_or(1, |(_, groups)| groups));
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups })
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups, open })
     }
 
-    /// The Voronoi cells; `None` unless the pressure is conservative.
+    /// The Voronoi cells of the pressure; `None` unless its form is conservative.
     pub fn cells(&self) -> Option<&Cells> {
-        self.cells.as_ref()
+        self.cells.as_ref().filter(|_| self.plan.form == Some(PressureForm::Conservative))
     }
 
     /// The flux out of the cells; `None` unless the plan fits it.
     pub fn fluxes(&self) -> Option<&Fluxes> {
         self.fluxes.as_ref()
+    }
+
+    /// True of a point where fluid leaves at pressure 0.
+    pub fn is_outlet(&self, point: usize) -> bool {
+        let sides = point.checked_sub(self.cloud.interior).and_then(|point| self.cloud.sides.get(point));
+        let leaves = |side: &Side| side.wall(&self.case.boundaries).kind == SideKind::Outlet;
+        self.plan.outlets && sides.is_some_and(|sides| sides.iter().any(leaves))
     }
 
     /// The velocity at every point that a run begins with, m/s: the exact solution's, or rest between the walls.
@@ -167,13 +205,16 @@ impl Scene {
 
     /// Kinetic energy of the whole domain moving as fast as the fastest wall, or as the fastest fluid at first, and as if it had
     /// fallen through the domain, m^4/s^2: walls that drag it along give it no more. `None` where nothing moves it, and where
-    /// it may fall for ever.
+    /// it may fall for ever, rise by its heat, or come in.
     pub fn energy_scale(&self) -> Option<f64> {
         let square = self.initial_velocity().iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
         let (gravity, size) = (self.constants.gravity, self.cloud.size);
         let square = square + 2.0 * (gravity.abs() * size).element_sum();
         let falls = self.balanced_gravity() != gravity;
-        (square > 0.0 && !falls).then_some(0.5 * size.x * size.y * square)
+        let driven = self.case.effects.buoyancy.is_some()
+            || self.case.has_side(SideKind::Inlet)
+            || self.case.has_side(SideKind::Outlet);
+        (square > 0.0 && !falls && !driven).then_some(0.5 * size.x * size.y * square)
     }
 
     /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
@@ -223,7 +264,12 @@ impl Scene {
                 let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
+            if self.exact.is_none() {
+                data.push((Buffer::WallFlux, self.scalars(&sides::wall_flux(self, cells), 0.0)));
+            }
         }
+        data.extend(carried::initial(self, &volume));
+        data.extend(sides::rows(self, &self.open));
         data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
@@ -258,6 +304,10 @@ impl Scene {
             (0..slots).for_each(|slot| neighbour[at(point, slot)] = own as u32);
         }
         for point in 0..self.sizes.points {
+            // The pressure is known there: no equation.
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, face)) in cells.faces(point).enumerate() {
                 neighbour[at(point, slot)] = other as u32;
                 weight[at(point, slot)] = face;
@@ -283,6 +333,9 @@ impl Scene {
             (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);
         }
         for (point, count) in count.iter_mut().enumerate().take(self.sizes.points) {
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, factor)) in fluxes.row(point).enumerate() {
                 points[at(point, slot, slots)] = other as u32;
                 row[at(point, slot, 2 * slots)] = factor.x;

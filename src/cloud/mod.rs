@@ -4,6 +4,7 @@ mod arrangement;
 pub mod flux;
 pub mod grid;
 mod groups;
+mod open;
 mod period;
 pub mod voronoi;
 mod wall;
@@ -12,6 +13,7 @@ use glam::DVec2;
 
 use crate::case;
 pub use groups::first_apart;
+pub use open::{OpenPoint, open_points};
 pub use period::{inside, shortest};
 pub use wall::Side;
 
@@ -124,16 +126,15 @@ impl Cloud {
         std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
     }
 
-    /// The velocity that the walls prescribe at each boundary point, m/s. A corner takes what both its walls agree
-    /// on, else it rests: below a lid it belongs to the side wall.
+    /// The velocity that the sides prescribe at each boundary point, m/s. A corner takes what its sides agree on, of those that
+    /// prescribe one, else it rests: below a lid it belongs to the side wall. Rest where no side does.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
-        let velocity = |side: &Side| DVec2::from_array(side.wall(boundaries).velocity);
-        // A corner takes what both its walls agree on.
-        let agreed = |sides: &Vec<Side>| {
-            let first = velocity(&sides[0]);
-            if sides.iter().all(|side| velocity(side) == first) { first } else { DVec2::ZERO }
+        let agreed = |(sides, &place): (&Vec<Side>, &DVec2)| {
+            let mut given = sides.iter().filter_map(|side| side.velocity(boundaries, place, self.size));
+            let first = given.next().unwrap_or(DVec2::ZERO);
+            if given.all(|velocity| velocity == first) { first } else { DVec2::ZERO }
         };
-        self.sides.iter().map(agreed).collect()
+        self.sides.iter().zip(&self.position[self.interior..]).map(agreed).collect()
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-use crate::case::{Boundaries, Wall};
+use crate::case::{Boundaries, SideKind, SideProfile, Wall};
 
 /// One side of the rectangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +33,23 @@ impl Side {
             Side::Right => &boundaries.right,
             Side::Bottom => &boundaries.bottom,
             Side::Top => &boundaries.top,
+        }
+    }
+}
+
+impl Side {
+    /// What the side prescribes at a place on it, m/s, in a rectangle of `size`, m; `None` where it follows the fluid.
+    pub fn velocity(self, boundaries: &Boundaries, place: DVec2, size: DVec2) -> Option<DVec2> {
+        let wall = self.wall(boundaries);
+        let along = self.normal().perp().abs();
+        let s = place.dot(along) / size.dot(along);
+        let share = match wall.profile {
+            SideProfile::Uniform => 1.0,
+            SideProfile::Parabola => 4.0 * s * (1.0 - s),
+        };
+        match wall.kind {
+            SideKind::Wall | SideKind::Inlet => Some(share * DVec2::from(wall.velocity)),
+            SideKind::Slip | SideKind::Outlet => None,
         }
     }
 }

@@ -31,6 +31,7 @@ numbered! {
         /// First point whose field is not a number.
         BadVelocity = "BAD_VELOCITY",
         BadPressure = "BAD_PRESSURE",
+        BadCarried = "BAD_CARRIED",
         /// The solve under way.
         Phase = "PHASE",
         Outcome = "OUTCOME",

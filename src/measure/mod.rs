@@ -7,7 +7,9 @@ mod field;
 mod fit;
 mod images;
 mod line;
+mod loss;
 mod sampler;
+mod slope;
 
 pub use crate::case::Profile;
 pub use cells::CellList;

@@ -8,7 +8,7 @@ use super::OutputError;
 use super::file::PART;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "checkpoint",
     "points.csv",
     "points.vtu",
@@ -17,9 +17,13 @@ const FILES: [&str; 10] = [
     "pressure.png",
     "speed.png",
     "centreline.png",
+    "temperature.png",
     "gradient.png",
     "laplacian.png",
 ];
+
+/// What the names of pictures of tracers begin with.
+const TRACER: &str = "tracer_";
 
 /// Where a run's files lie.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,7 +45,10 @@ impl RunFolder {
         if force {
             folder.check_free()?;
             folder.remove_parts()?;
-            for name in FILES {
+            let entries = fs::read_dir(path).map_err(OutputError::io(path))?;
+            let tracers = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+            let tracers = tracers.filter(|name| name.starts_with(TRACER) && name.ends_with(".png"));
+            for name in FILES.map(str::to_owned).into_iter().chain(tracers) {
                 remove(&path.join(name))?;
             }
         } else if fs::read_dir(path).map_err(OutputError::io(path))?.next().is_some() {
@@ -87,7 +94,7 @@ impl RunFolder {
             let file = entry.map_err(OutputError::io(&self.path))?.path();
             let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let of_a_run = FILES.iter().any(|known| name.strip_prefix(known).is_some_and(|rest| rest.starts_with('.')));
-            if of_a_run && name.ends_with(PART) {
+            if (of_a_run || name.starts_with(TRACER)) && name.ends_with(PART) {
                 remove(&file)?;
             }
         }
@@ -132,6 +139,14 @@ impl RunFolder {
 
     pub fn speed_picture(&self) -> PathBuf {
         self.path.join("speed.png")
+    }
+
+    /// Of a field that the flow carries.
+    pub fn carried_picture(&self, name: &str) -> PathBuf {
+        match name {
+            "temperature" => self.path.join("temperature.png"),
+            _ => self.path.join(format!("{TRACER}{name}.png")),
+        }
     }
 
     pub fn gradient_picture(&self) -> PathBuf {
@@ -186,6 +201,8 @@ mod tests {
             folder.pressure_picture(),
             folder.speed_picture(),
             folder.centreline_picture(),
+            folder.carried_picture("temperature"),
+            folder.carried_picture("ink"),
             folder.gradient_picture(),
             folder.laplacian_picture(),
         ] {

@@ -19,6 +19,8 @@ pub enum Limit {
     Gravity,
     /// The viscous term is stable up to there.
     Viscosity,
+    /// The diffusion of what the flow carries is.
+    Diffusion,
     /// `time.step` fixes it.
     Fixed,
     /// Nothing but the time that is left.
@@ -34,6 +36,7 @@ impl Limit {
             Limit::Courant => "courant",
             Limit::Gravity => "gravity",
             Limit::Viscosity => "viscosity",
+            Limit::Diffusion => "diffusion",
             Limit::Fixed => "fixed",
             Limit::End => "end",
             Limit::Guard => "guard",
@@ -144,6 +147,7 @@ impl Run<'_> {
     /// Puts the last good state back, to go on from there with half the step.
     pub(super) fn go_back(&mut self, good: &mut State, trouble: &Trouble, step: u64) -> Result<Progress, EngineError> {
         good.write(self.engine)?;
+        self.begin_steps(good.progress.dt)?;
         good.progress.halvings += 1;
         self.warnings.push(format!(
             "in or shortly before step {step} {trouble}; went back to step {} and on with half the step",

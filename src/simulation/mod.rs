@@ -1,6 +1,7 @@
 //! One run: steps until the end, a steady state, a request to stop, or trouble that shorter steps do not mend.
 
 mod guard;
+mod prices;
 mod row;
 mod state;
 
@@ -19,6 +20,7 @@ use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
 pub use guard::{Limit, Trouble};
+pub use prices::{Prices, prices};
 use row::Row;
 pub use state::{Progress, State};
 
@@ -111,7 +113,7 @@ pub enum SimulationError {
     )]
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
-    NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+    NotFinite { field: String, point: usize, x: f64, y: f64 },
     #[error(
         "time.end = {end:e}: steps of at most {longest:e} s ({limit}) make more than {MOST_STEPS:e} of them; \
          allowed: a larger cloud.spacing, a smaller effects.viscosity.kinematic, or a sooner end"
@@ -120,7 +122,7 @@ pub enum SimulationError {
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
-fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
+fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
     let columns = snapshot.columns();
     columns.iter().find_map(|column| {
         let found = |point| column.at(point).find(|(_, value)| !value.is_finite()).map(|(name, _)| (name, point));
@@ -128,8 +130,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
     })
 }
 
-/// Share of the viscous stability limit that a step uses.
-const VISCOUS_SAFETY: f64 = 0.8;
+/// Share of the stability limit of viscosity and diffusion that a step uses.
+const STABLE_SHARE: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -159,7 +161,7 @@ struct Run<'a> {
     scene: &'a Scene,
     engine: &'a mut dyn Engine,
     observer: &'a mut dyn Observer,
-    /// Largest stable step of the viscous term, s.
+    /// Longest step that viscosity and diffusion allow, s.
     limit: f64,
     /// m/s
     wall_speed: f64,
@@ -177,7 +179,7 @@ impl Run<'_> {
         }
         self.limit = match &resumed {
             Some(state) => state.progress.viscous.unwrap_or(f64::INFINITY),
-            None => self.viscous_limit()?,
+            None => self.stability_limit()?,
         };
         let ladder = self.ladder()?;
         if self.scene.groups > 1 && resumed.is_none() {
@@ -198,6 +200,7 @@ impl Run<'_> {
         let mut good = match resumed {
             Some(state) => {
                 state.write(self.engine)?;
+                self.begin_steps(state.progress.dt)?;
                 self.warnings.clone_from(&state.progress.warnings);
                 state
             }
@@ -270,6 +273,7 @@ impl Run<'_> {
         };
         if let Some((field, point)) = not_finite(&snapshot) {
             let place = self.scene.cloud.position[point];
+            let field = field.to_owned();
             return Err(SimulationError::NotFinite { field, point, x: place.x, y: place.y });
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
@@ -319,7 +323,7 @@ impl Run<'_> {
             None => {
                 let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
                 let limits =
-                    [(self.limit, Limit::Viscosity), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
+                    [(self.limit, self.stable_by()), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
                 let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
                 limits.into_iter().fold((f64::INFINITY, Limit::End), shorter)
             }
@@ -341,7 +345,8 @@ impl Run<'_> {
         }
         if dt > self.limit && !self.warnings.iter().any(|warning| warning.starts_with("time.step")) {
             let limit = self.limit;
-            self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
+            let name = self.stable_by();
+            self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
         Ok((dt, limit))
     }
@@ -353,6 +358,12 @@ impl Run<'_> {
             Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
             _ => f64::INFINITY,
         }
+    }
+
+    /// What depends on the length of a step, before the first one of it.
+    fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = self.scene.clock(dt);
+        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
     }
 
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
@@ -367,7 +378,14 @@ impl Run<'_> {
             let inside = vec![balance; self.scene.sizes.interior];
             self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
         }
-        for &operation in &self.scene.plan.kick {
+        // A carried field has its half step before the first drift anyway.
+        let forces = self
+            .scene
+            .plan
+            .kick
+            .iter()
+            .filter(|operation| !matches!(operation, Operation::Diffuse(..) | Operation::HeatWalls(_)));
+        for &operation in forces {
             self.engine.apply(operation, &clock)?;
         }
         Ok(())
@@ -393,6 +411,17 @@ impl Run<'_> {
             self.engine.write(Buffer::PressureKick, &Data::Real(mean))?;
         }
         Ok(())
+    }
+
+    /// Longest step that viscosity and diffusion allow, s.
+    fn stability_limit(&mut self) -> Result<f64, EngineError> {
+        Ok(self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit))
+    }
+
+    /// Which of the two it is.
+    fn stable_by(&self) -> Limit {
+        let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= self.limit;
+        if diffuses { Limit::Diffusion } else { Limit::Viscosity }
     }
 
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
@@ -427,7 +456,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(VISCOUS_SAFETY * 2.0 / radius * unit)
+        Ok(STABLE_SHARE * 2.0 / radius * unit)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
@@ -476,10 +505,18 @@ fn snapshot(
     if scene.plan.form.is_some()
         && let Data::Real(values) = read(Buffer::Pressure)?
     {
-        let mean = values[..points].iter().sum::<f64>() / points as f64;
+        let singular = scene.constants.singular;
+        let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
         pressure = values[..points].iter().map(|p| p - mean).collect();
     }
-    Ok(Snapshot { time, position: scene.cloud.position.clone(), velocity, pressure, derivatives: None })
+    let mut carried = Vec::new();
+    for &field in &scene.plan.carried {
+        if let Data::Real(mut values) = read(Buffer::Carried(field))? {
+            values.truncate(points);
+            carried.push((scene.case.field_name(field), values));
+        }
+    }
+    Ok(Snapshot { time, position: scene.cloud.position.clone(), velocity, pressure, carried, derivatives: None })
 }
 
 /// Steps of at most `longest` that fill `left`, both in s: one rounding unit too many does not make one more.

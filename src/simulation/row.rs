@@ -22,6 +22,7 @@ impl Run<'_> {
     /// The first half kick, and the state after it.
     pub(super) fn begin(&mut self, speed: f64) -> Result<State, SimulationError> {
         let (dt, _) = self.step(speed, 0.0, 0)?;
+        self.begin_steps(dt)?;
         self.first_kick(dt)?;
         let viscous = Some(self.limit).filter(|limit| limit.is_finite());
         let warnings = self.warnings.clone();
@@ -36,6 +37,9 @@ impl Run<'_> {
     pub(super) fn next_step(&mut self, progress: &mut Progress) -> Result<Limit, SimulationError> {
         let (next, limit) = self.step(progress.speed, progress.time, progress.halvings)?;
         self.change_step(next / progress.dt)?;
+        if next != progress.dt {
+            self.begin_steps(next)?;
+        }
         progress.dt = next;
         Ok(limit)
     }

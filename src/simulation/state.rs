@@ -18,7 +18,7 @@ pub struct Progress {
     pub dt: f64,
     /// Fastest fluid, m/s: the next step is chosen by it.
     pub speed: f64,
-    /// Largest stable step of the viscous term, s; none without.
+    /// Longest step that viscosity and diffusion allow, s; none without.
     pub viscous: Option<f64>,
     /// Rows in a row that were steady.
     pub steady_rows: u32,

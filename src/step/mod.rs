@@ -21,14 +21,18 @@
 //! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
 
 mod buffer;
+mod carried;
+mod effect;
 mod grid;
 mod operation;
 mod plan;
 mod rung;
 
 pub use buffer::{Buffer, Element, Points};
+pub use carried::Carried;
+pub use effect::Effect;
 pub use grid::Grid;
-pub use operation::{Operation, Stage};
+pub use operation::{Kicked, Operation, Stage};
 pub use plan::{Plan, Sizes};
 pub use rung::Rung;
 

@@ -28,6 +28,7 @@ fn a_row_says_what_limits_its_steps() {
     };
     all(&[], Limit::Courant);
     all(&["effects.viscosity.kinematic=1.0", "time.end=0.02"], Limit::Viscosity);
+    all(&["effects.heat={ diffusivity = 1.0, initial = 0.3 }", "time.end=0.02"], Limit::Diffusion);
     all(&["time.step=0.01"], Limit::Fixed);
     all(
         &["effects.gravity.acceleration=[0.0, -1e3]", "boundaries.top.velocity=[0.0, 0.0]", "time.end=0.1"],

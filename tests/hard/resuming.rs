@@ -11,8 +11,9 @@ use stillpoint::output::{RunFolder, StopReason};
 use stillpoint::run::{self, Job};
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Diagnostics, Observer, Outcome, State, resume, simulate};
+use stillpoint::step::Buffer;
 
-use crate::cases::{ARRANGEMENTS, cavity_of, vortices, wake};
+use crate::cases::{ARRANGEMENTS, cavity_of, turning, vortices, wake};
 use crate::folders::result;
 
 type Open = fn(&Arc<Scene>) -> Result<Box<dyn Engine>, EngineError>;
@@ -101,6 +102,39 @@ fn a_run_in_two_gives_the_same_bits_as_one_in_one_go() {
             &cavity_of(12, &["time.end=20.0", "time.steady=0.05", "output.report_every=5"]),
             open,
         );
+    }
+}
+
+/// Heat that drives the flow, fluid that comes and goes, and a tracer that a prescribed flow carries: its departures are found
+/// when the steps change in length, and once more by a run that goes on.
+#[test]
+fn what_the_flow_carries_goes_on_to_the_same_bits() {
+    let base = ["cloud.arrangement=jittered", "time.end=0.6", "output.report_every=3"];
+    let heat = [
+        "effects.gravity.acceleration=[0.0, -1.0]",
+        "effects.heat={ diffusivity = 0.02, initial = 0.3 }",
+        "effects.buoyancy={ expansion = 0.5, reference = 0.2 }",
+        "boundaries.left.temperature=1.0",
+        "boundaries.bottom.heat_flux=0.05",
+    ];
+    let ink =
+        "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'gaussian', centre = [0.5, 0.6], radius = 0.2 }]";
+    let through = [
+        "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.0], profile = 'parabola' }",
+        "boundaries.right.kind=outlet",
+        ink,
+    ];
+    for (name, open) in [("f64", cpu::double as Open), ("f32", cpu::single)] {
+        for (what, case) in [
+            ("heat", cavity_of(16, &[&base[..], &heat].concat())),
+            ("a tracer", cavity_of(16, &[&base[..], &[ink]].concat())),
+            ("inlet and outlet", cavity_of(16, &[&base[..], &through].concat())),
+            ("a rotation", turning(16, &base)),
+        ] {
+            check(&format!("{name}, {what}"), &case, open);
+            let state = Scene::build(&case).expect("a scene").plan.state();
+            assert!(state.iter().any(|buffer| matches!(buffer, Buffer::Carried(_))), "{what}: {state:?}");
+        }
     }
 }
 

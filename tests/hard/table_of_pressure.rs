@@ -108,7 +108,7 @@ impl Rows<f64> for Small {
 /// Methods that would divide by zero, by themselves.
 fn breakdowns() -> Vec<Row> {
     const LENGTH: usize = 32;
-    let stop = Stop { residual: 1e-12, max_iterations: 50, floor: 1.0 };
+    let stop = Stop { residual: 1e-12, max_iterations: 50, floor: 1.0, singular: true };
     let vector = || vec![0.0; LENGTH];
     let two = |a: f64, b: f64| {
         let mut source = vector();

@@ -9,6 +9,7 @@ mod random;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 
+mod carried;
 mod clouds;
 mod energy;
 mod exact;
@@ -25,4 +26,5 @@ mod poisson;
 mod remap;
 mod repeatability;
 mod runs;
+mod sides;
 mod voronoi;

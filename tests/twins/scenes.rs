@@ -8,7 +8,7 @@ use stillpoint::case::{Axes, Case};
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
-use crate::cases::{FIT, cavity_of, problem, vortices, wake};
+use crate::cases::{FIT, cavity_of, problem, turning, vortices, wake};
 
 /// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
 const ACROSS: usize = 16;
@@ -129,6 +129,18 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
         let changes = [&[TIGHT], changes].concat();
         scenes.push((name, Arc::new(Scene::build(&case(14, &changes)).expect("a scene"))));
     }
+    scenes.push(("heat, buoyancy and tracers", Arc::new(of(&heated()))));
+    let turning = turning(14, &["cloud.arrangement=jittered"]);
+    scenes.push(("a rotation that is prescribed", Arc::new(Scene::build(&turning).expect("a scene"))));
+    let solvers =
+        ["conjugate_gradient", "bicgstab", "direct"].map(|solver| format!("effects.pressure.solver={solver}"));
+    for (name, solver) in
+        ["inlet, outlet and slip, cg", "inlet, outlet and slip, bicgstab", "inlet, outlet and slip, direct"]
+            .into_iter()
+            .zip(&solvers)
+    {
+        scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
+    }
     scenes.push(("a channel that repeats", Arc::new(channel())));
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
@@ -156,6 +168,32 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
 /// The cavity on 17 x 17 points with `changes`.
 pub fn of(changes: &[&str]) -> Scene {
     Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
+}
+
+/// Fluid comes in on the left, slides along the top, and leaves on the right; a tracer goes with it.
+pub const OPEN: [&str; 6] = [
+    "cloud.arrangement=jittered",
+    "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.1], profile = 'parabola' }",
+    "boundaries.right={ kind = 'outlet' }",
+    "boundaries.top={ kind = 'slip' }",
+    GRAVITY,
+    "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
+
+/// A cavity heated from two sides, in which two tracers are carried.
+pub fn heated() -> [&'static str; 9] {
+    [
+        "cloud.arrangement=jittered",
+        GRAVITY,
+        "effects.heat.diffusivity=0.02",
+        "effects.heat.initial=0.3",
+        "effects.buoyancy={ expansion = 0.5, reference = 0.2 }",
+        "boundaries.left.temperature=1.0",
+        "boundaries.bottom.heat_flux=0.05",
+        "boundaries.right.temperature=0.0",
+        "effects.tracers=[{ name = 'smoke', diffusivity = 0.01, shape = 'gaussian', centre = [0.5, 0.6], radius = 0.2 }, \
+         { name = 'ink', shape = 'box', centre = [0.4, 0.7], size = [0.4, 0.3] }]",
+    ]
 }
 
 /// Along x the domain repeats, along y it ends at walls, of which one moves.

@@ -40,7 +40,7 @@ fn spoil(scene: &Scene, engine: &mut dyn Engine) {
         }
         let Data::Real(mut values) = engine.read(buffer).expect("an array") else { panic!("{buffer:?} holds indexes") };
         let width = values.len() / scene.padded();
-        let interleaved = [Buffer::Kick, Buffer::Position(Points::Moved)].contains(&buffer);
+        let interleaved = [Buffer::Kick, Buffer::Position(Points::Moved), Buffer::Departure].contains(&buffer);
         for (entry, value) in values.iter_mut().enumerate() {
             let block = entry / (BLOCK * width);
             let point = if interleaved { entry / 2 } else { block * BLOCK + entry % BLOCK };
@@ -55,7 +55,7 @@ fn spoil(scene: &Scene, engine: &mut dyn Engine) {
 fn check(name: &str, scene: &Arc<Scene>, open: &dyn Fn(&Arc<Scene>) -> Opened) {
     let clock = scene.clock(0.01);
     let mut engine = set_up(scene, open);
-    for &operation in &scene.plan.kick {
+    for &operation in scene.plan.on_step.iter().chain(&scene.plan.kick) {
         engine.apply(operation, &clock).expect("an operation");
     }
     engine.advance(STEPS, &clock).expect("steps");
@@ -69,6 +69,9 @@ fn check(name: &str, scene: &Arc<Scene>, open: &dyn Fn(&Arc<Scene>) -> Opened) {
     let expected = end(engine.as_mut());
     let mut fresh = set_up(scene, open);
     kept.write(fresh.as_mut()).expect("a state");
+    for &operation in &scene.plan.on_step {
+        fresh.apply(operation, &clock).expect("an operation");
+    }
     spoil(scene, fresh.as_mut());
     assert!(end(fresh.as_mut()) == expected, "{name}");
     assert!(expected.0.arrays.iter().any(|(buffer, _)| *buffer == scene.plan.moving()), "{name}: what moves is kept");

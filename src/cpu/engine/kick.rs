@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
-use crate::cpu::operations::{conservative, derivative, gravity, kick};
+use crate::cpu::operations::open_sides::Open;
+use crate::cpu::operations::{conservative, derivative, gravity, kick, open_sides};
 use crate::cpu::real::Real;
 use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation};
@@ -60,6 +61,18 @@ impl<T: Real> CpuEngine<T> {
                         sizes.interior,
                         &mut projected,
                     ));
+                });
+            }
+            Operation::OpenSides(kicked) => {
+                with_taken!(self.fields, [velocity = kicked.velocity()], {
+                    let open = Open {
+                        points: self.fields.index(Buffer::OpenPoints)?,
+                        row: self.fields.real(Buffer::OpenRow)?,
+                        count: self.fields.index(Buffer::OpenCount)?,
+                        normal: self.fields.real(Buffer::OpenNormal)?,
+                        capacity: sizes.open_capacity,
+                    };
+                    open_sides::open_sides(open, sizes.interior, sizes.points, &mut velocity);
                 });
             }
             Operation::HoldWalls => {
