@@ -107,6 +107,10 @@ pub enum EngineError {
     Adapter(String),
     #[error("the device needs {needed} bytes for {what}, and allows {allowed}; use fewer points or the CPU engine")]
     TooLarge { what: String, needed: u64, allowed: u64 },
+    #[error("the device has no memory left for {what}; use fewer points or the CPU engine")]
+    OutOfMemory { what: String },
+    #[error("GPU: the driver does not take the shader {name}: {message}; use the CPU engine")]
+    Shader { name: String, message: String },
     #[error("a point has {found} neighbours, and its list holds {capacity}: the points have clustered")]
     NeighbourOverflow { found: u32, capacity: usize },
     #[error("GPU: {0}")]

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use crate::case::{Case, Measure, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
-use crate::engine::{Engine, EngineInfo};
+use crate::engine::{Engine, EngineError, EngineInfo};
 use crate::known::Known;
 use crate::measure::evaluate_run;
 use crate::motion;
@@ -15,9 +15,10 @@ use crate::output::motion::Frames;
 use crate::output::picture::Film;
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, MotionWriter, OutputError, RunFolder, Seconds, StopReason, Summary,
+    checkpoint,
 };
 use crate::scene::Scene;
-use crate::simulation::{self, Diagnostics, Observer, Outcome, SimulationError, Stop};
+use crate::simulation::{self, Diagnostics, Observer, Outcome, SimulationError, State, Stop, Trouble};
 use crate::snapshot::Snapshot;
 
 /// Why a run could not be finished.
@@ -40,27 +41,66 @@ pub struct Report {
     pub trouble: Option<String>,
 }
 
-/// Simulates `scene` on `engine` and writes everything into `folder`. `case_path` is named in the summary.
+/// What is run, and where it is written.
+#[derive(Clone, Copy)]
+pub struct Job<'a> {
+    /// Named in the summary.
+    pub case_path: &'a Path,
+    pub scene: &'a Arc<Scene>,
+    pub folder: &'a RunFolder,
+    /// Steps after which, at the next row of diagnostics, a checkpoint is written; none is on the way where absent.
+    pub checkpoint_every: Option<u64>,
+}
+
+/// Simulates a scene on `engine` and writes everything into the folder.
 ///
-/// A run that diverges, and one that is interrupted, leave a complete folder too: of their last good state.
-pub fn run(
-    case_path: &Path,
-    scene: &Arc<Scene>,
+/// A run that diverges, and one that is interrupted, leave a complete folder too: of their last good state, and with a
+/// checkpoint to go on from. That of a run that came to its end is removed.
+pub fn run(job: Job<'_>, engine: &mut dyn Engine, observer: &mut dyn Observer) -> Result<Report, RunError> {
+    let prepared = Instant::now();
+    // Without time there is nothing to report on the way.
+    let flows = job.scene.plan.flows;
+    let rows = flows.then(|| DiagnosticsWriter::create(&job.folder.diagnostics())).transpose()?;
+    let moves = job.scene.plan.moves();
+    let motion = moves.then(|| MotionWriter::create(job.folder, &job.scene.case)).transpose()?;
+    let (info, history) = (engine.info(), Vec::new());
+    let mut writer = Recorder { job, info, rows, motion, history, observer, kept: None, failed: None };
+    let outcome = simulation::simulate(job.scene, engine, &mut writer)?;
+    finish(writer, outcome, prepared)
+}
+
+/// Goes on with a run from a state that it was in: what it leaves is what it would have left without the interruption.
+pub fn resume(
+    job: Job<'_>,
+    state: State,
     engine: &mut dyn Engine,
-    folder: &RunFolder,
     observer: &mut dyn Observer,
 ) -> Result<Report, RunError> {
     let prepared = Instant::now();
-    // Without time there is nothing to report on the way.
-    let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
-    let motion = scene.plan.moves().then(|| MotionWriter::create(folder, &scene.case)).transpose()?;
-    let mut writer = Recorder { rows, motion, history: Vec::new(), observer, failed: None };
-    let outcome = simulation::simulate(scene, engine, &mut writer)?;
-    if let Some(error) = writer.failed {
+    let step = state.progress.step;
+    let rows = Some(DiagnosticsWriter::resume(&job.folder.diagnostics(), step)?);
+    let mut writer = Recorder {
+        job,
+        info: engine.info(),
+        rows,
+        motion: None,
+        history: Vec::new(),
+        observer,
+        kept: Some(step),
+        failed: None,
+    };
+    let outcome = simulation::resume(job.scene, engine, &mut writer, state)?;
+    finish(writer, outcome, prepared)
+}
+
+fn finish(mut writer: Recorder<'_>, outcome: Outcome, prepared: Instant) -> Result<Report, RunError> {
+    if matches!(outcome.stop, Stop::Interrupted | Stop::Trouble { .. }) {
+        writer.write(&outcome.state);
+    }
+    let Recorder { job: Job { case_path, scene, folder, .. }, info, failed, history, .. } = writer;
+    if let Some(error) = failed {
         return Err(error.into());
     }
-    let history = writer.history;
-    let info = engine.info();
     let profiles = profiles(&scene.case)?;
     let began = Instant::now();
     let snapshot = &outcome.snapshot;
@@ -77,6 +117,9 @@ pub fn run(
     let rest = prepared.elapsed().as_secs_f64() - summary.seconds.stepping - summary.seconds.output;
     summary.seconds.setup = summary.seconds.setup.max(rest);
     summary.write(&folder.summary())?;
+    if matches!(outcome.stop, Stop::End | Stop::Steady) {
+        folder.remove_checkpoint()?;
+    }
     Ok(Report { trouble: trouble(&outcome), summary })
 }
 
@@ -162,7 +205,7 @@ fn summarise(
             Stop::Steady => StopReason::Steady,
             Stop::End => StopReason::End,
             Stop::Interrupted => StopReason::Interrupted,
-            Stop::NonFinite { .. } | Stop::Diverged { .. } => StopReason::Failed,
+            Stop::Trouble { .. } => StopReason::Failed,
         },
         seconds: Seconds { setup: outcome.setup.as_secs_f64(), stepping: outcome.stepping.as_secs_f64(), output: 0.0 },
         fallbacks: Fallbacks { direct_solves: outcome.fallbacks, widened, lowered, nearest },
@@ -174,30 +217,58 @@ fn summarise(
 }
 
 fn trouble(outcome: &Outcome) -> Option<String> {
-    if let Stop::Diverged { reason, step } = &outcome.stop {
-        return Some(format!(
-            "diverged at or shortly before step {step}: {reason}; kept: the state at {} s",
-            outcome.snapshot.time
-        ));
-    }
-    let Stop::NonFinite { field, place, step } = &outcome.stop else { return None };
+    let Stop::Trouble { trouble, step } = &outcome.stop else { return None };
+    let kept = &outcome.state.progress;
+    let tries = match kept.halvings {
+        0 => String::new(),
+        1 => ", with half the step too".to_owned(),
+        halvings => format!(", with the step halved {halvings} times too"),
+    };
+    let remedy = match trouble {
+        Trouble::Engine(EngineError::Device(_)) => "go on with it by `stillpoint resume`, or run it with --engine cpu",
+        Trouble::Engine(_) => "try another effects.pressure.solver, or more regular points",
+        Trouble::Energy { .. } => "try a smaller time.courant, a smaller cloud.spacing, or a larger guard.energy",
+        Trouble::Diverged(_) => "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step",
+        Trouble::NonFinite { .. } | Trouble::Figure { .. } | Trouble::Refused(_) => {
+            "try a smaller time.courant or a smaller cloud.spacing"
+        }
+    };
     Some(format!(
-        "{} of point {} at ({}, {}) m turned non-finite in or shortly before step {step}; kept: the state at {} s; try a smaller time.courant",
-        field.buffer.name(),
-        field.point,
-        place.x,
-        place.y,
-        outcome.snapshot.time,
+        "in or shortly before step {step} {trouble}{tries}; kept: the state after step {} at {} s; {remedy}",
+        kept.step, kept.time
     ))
 }
 
-/// Writes every row before it shows it.
+/// Writes every row before it shows it, and the states that are to be kept.
 struct Recorder<'a> {
+    job: Job<'a>,
+    info: EngineInfo,
     rows: Option<DiagnosticsWriter>,
     motion: Option<MotionWriter>,
     history: Vec<motion::Row>,
     observer: &'a mut dyn Observer,
+    /// The step of the last checkpoint.
+    kept: Option<u64>,
     failed: Option<OutputError>,
+}
+
+impl Recorder<'_> {
+    /// Writes a checkpoint, the rows before it first.
+    fn write(&mut self, state: &State) {
+        let Job { case_path, scene, folder, checkpoint_every } = self.job;
+        // Their rows and frames are not taken up again.
+        if scene.plan.moves() {
+            return;
+        }
+        let synced = self.rows.as_mut().map_or(Ok(()), DiagnosticsWriter::sync);
+        let path = folder.checkpoint();
+        let written =
+            synced.and_then(|()| checkpoint::write(&path, case_path, &scene.case, &self.info, checkpoint_every, state));
+        match written {
+            Ok(()) => self.kept = Some(state.progress.step),
+            Err(error) => drop(self.failed.get_or_insert(error)),
+        }
+    }
 }
 
 impl Observer for Recorder<'_> {
@@ -225,5 +296,12 @@ impl Observer for Recorder<'_> {
 
     fn stop_requested(&self) -> bool {
         self.failed.is_some() || self.observer.stop_requested()
+    }
+
+    fn keep(&mut self, state: &State) {
+        let due = |every: u64| self.kept.is_none_or(|kept| state.progress.step >= kept.saturating_add(every));
+        if self.failed.is_none() && self.job.checkpoint_every.is_some_and(due) {
+            self.write(state);
+        }
     }
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::Cells;
-use crate::cloud::{Cloud, CloudError, OpenPoint, Side, grid, open_points, shortest};
+use crate::cloud::{Cloud, CloudError, OpenPoint, Side, first_apart, grid, open_points, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::{self, Lattice};
 use crate::cpu::operations::moments;
@@ -34,6 +34,8 @@ pub struct Scene {
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
+    /// Groups of points out of each other's sight; 1 where all hang together.
+    pub groups: usize,
     /// The points of slip sides and outlets.
     open: Vec<OpenPoint>,
 }
@@ -96,6 +98,12 @@ pub enum SceneError {
         "method.radius = {radius}: point {point} at ({x}, {y}) m has {found} neighbours; allowed: a radius that gives every point {needed}"
     )]
     TooFewNeighbours { radius: f64, point: usize, x: f64, y: f64, found: usize, needed: usize },
+    #[error(
+        "effects.pressure.form = \"collocated\": the points fall into {groups} groups out of each other's sight, and point {point} \
+         at ({x}, {y}) m is not of the first: nothing ties their pressures together; allowed: \"conservative\", or a larger \
+         method.radius"
+    )]
+    Apart { groups: usize, point: usize, x: f64, y: f64 },
 }
 
 /// Two points nearer than this, in spacings, coincide: no derivative exists between them.
@@ -109,12 +117,19 @@ impl Scene {
 
     /// The same on points laid out by the caller.
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
+        cloud.check()?;
         let plan = Plan::new(case);
         let radius = case.method.radius() * cloud.spacing;
-        let grid = Grid::new(cloud.size, cloud.period, radius);
         // Where the fluid ends a point may have few neighbours.
         let needed = if plan.moves() { 0 } else { moments::coefficients(case.method.order) };
-        let most = survey(&cloud, radius, case.method.radius(), needed)?;
+        let (most, apart) = survey(&cloud, radius, case.method.radius(), needed)?;
+        if let (Some((point, groups)), Some(PressureForm::Collocated), false) = (apart, plan.form, plan.moves()) {
+            let DVec2 { x, y } = cloud.position[point];
+            return Err(SceneError::Apart { groups, point, x, y });
+        }
+        // Not many more cells than points, however far these lie apart.
+        let room = (cloud.size.x * cloud.size.y / (4 * cloud.len() + 16) as f64).sqrt();
+        let grid = Grid::new(cloud.size, cloud.period, radius.max(room));
         let capacity = if plan.moves() {
             2 * most
         } else if plan.drift.contains(&Operation::MovePoints) {
@@ -175,7 +190,8 @@ impl Scene {
             constants.lift = -buoyancy.expansion * constants.gravity;
             constants.reference_temperature = buoyancy.reference;
         }
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes, open })
+        let (exact, groups) = (Exact::of(case), apart.map_or(1, |(_, groups)| groups));
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups, open })
     }
 
     /// The Voronoi cells of the pressure; `None` unless its form is conservative.
@@ -216,6 +232,21 @@ impl Scene {
                 rest.chain(cloud.wall_velocity(&self.case.boundaries)).collect()
             }
         }
+    }
+
+    /// Kinetic energy of the whole domain moving as fast as the fastest wall, or as the fastest fluid at first, and as if it had
+    /// fallen through the domain, m^4/s^2: walls that drag it along give it no more. `None` where nothing moves it, and where
+    /// it may fall for ever, rise by its heat, or come in.
+    pub fn energy_scale(&self) -> Option<f64> {
+        let square = self.initial_velocity().iter().map(|velocity| velocity.length_squared()).fold(0.0, f64::max);
+        let (gravity, size) = (self.constants.gravity, self.cloud.size);
+        let square = square + 2.0 * (gravity.abs() * size).element_sum();
+        let falls = self.balanced_gravity() != gravity;
+        let driven = self.case.effects.buoyancy.is_some()
+            || self.case.has_side(SideKind::Inlet)
+            || self.case.has_side(SideKind::Outlet);
+        // Points that move have a watch of their own.
+        (square > 0.0 && !falls && !driven && !self.plan.moves()).then_some(0.5 * size.x * size.y * square)
     }
 
     /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
@@ -391,8 +422,11 @@ impl Scene {
     }
 }
 
-/// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
+type Survey = (usize, Option<(usize, usize)>);
+
+/// The most neighbours that any point has within `radius`, and the first point that hangs together with no other group, with the
+/// number of groups; refuses points that coincide or stand alone.
+fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<Survey, SceneError> {
     let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
     let least = COINCIDENT * cloud.spacing;
     let count = |point: usize| -> Result<usize, SceneError> {
@@ -411,5 +445,6 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<us
         }
         Ok(found)
     };
-    (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))
+    let most = (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))?;
+    Ok((most, first_apart(&cloud.position, &grid, cloud.period, radius)))
 }

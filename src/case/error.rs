@@ -1,7 +1,7 @@
 //! What is wrong with a case file, on one line: where, which key, the value given, and what is allowed.
 
 use std::fmt::{self, Display, Formatter};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -18,6 +18,18 @@ pub enum CaseError {
     Override { given: String, reason: String },
     #[error("{0}")]
     Key(Box<KeyError>),
+}
+
+impl CaseError {
+    /// Whether it is about a place in this file.
+    pub(crate) fn is_in(&self, file: &Path) -> bool {
+        let place = match self {
+            CaseError::Syntax { place, .. } => place,
+            CaseError::Key(error) => &error.place,
+            CaseError::Text(_) | CaseError::Override { .. } => return false,
+        };
+        matches!(place, Place::File { path, .. } if path == file)
+    }
 }
 
 /// What is wrong with one key.
@@ -70,7 +82,7 @@ fn given(value: &Option<String>) -> String {
 }
 
 /// The text with its line breaks and other control characters escaped.
-pub(super) fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let escape = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
     text.chars().map(escape).collect()
 }

@@ -17,7 +17,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("cloud.arrangement", r#""regular", "jittered" or "random""#),
     ("cloud.spacing", "a length above 0, m"),
     ("cloud.jitter", "a number from 0 to below 0.5, in spacings"),
-    ("cloud.minimum_distance", "a number above 0 and at most 0.75, in spacings"),
+    ("cloud.minimum_distance", "a number from 0.1 to 0.75, in spacings"),
     ("cloud.seed", "a whole number from 0"),
     ("cloud.fill", "a table with the keys from, to"),
     ("cloud.fill.from", "two numbers [x, y], m, the lower left corner, inside the domain"),
@@ -65,6 +65,8 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("time.step", "a time above 0 and at most time.end, s"),
     ("time.steady", "a number above 0, m/s^2"),
     ("time.splitting", r#""reflection" or "projection""#),
+    ("guard.retries", "a whole number from 0 to 20"),
+    ("guard.energy", "a number above 1"),
     ("exact", "a table with the key solution"),
     ("exact.solution", r#""taylor_green", "kovasznay", "couette", "poiseuille", "conduction" or "rotation""#),
     ("derivatives", "a table with the key field"),
@@ -159,7 +161,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 22] = [
+        let tables: [(&str, &[&str]); 23] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("cloud.fill", fields::<Fill>()),
@@ -177,6 +179,7 @@ mod tests {
             ("effects.buoyancy", fields::<Buoyancy>()),
             ("effects.tracers", fields::<Tracer>()),
             ("time", fields::<Time>()),
+            ("guard", fields::<Guard>()),
             ("exact", fields::<Exact>()),
             ("derivatives", fields::<KnownField>()),
             ("poisson", fields::<KnownField>()),

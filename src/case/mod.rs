@@ -17,7 +17,7 @@ mod reference;
 pub(crate) mod text;
 mod tracer;
 
-pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS, WIDEST_LADDER};
+pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, MOST_STEPS, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use moving::{Fill, Initial, Motion, Sensor, Wave};
@@ -50,6 +50,8 @@ pub struct Case {
     pub effects: Effects,
     #[serde(default)]
     pub time: Time,
+    #[serde(default)]
+    pub guard: Guard,
     /// A flow that is known: where the run begins, what its walls prescribe, and what it may be measured against.
     pub exact: Option<Exact>,
     /// In place of a flow: derivatives of a known field, once.
@@ -470,6 +472,22 @@ pub enum Splitting {
     Reflection,
     /// The paper's: forces of a whole step, then projection; first order.
     Projection,
+}
+
+/// What a run that goes wrong does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Guard {
+    /// Times that it goes back to its last good state and on with half the step, before it gives up.
+    pub retries: u32,
+    /// Kinetic energy that counts as wrong, over that of the whole domain moving as fast as its walls, or its fluid at first.
+    pub energy: f64,
+}
+
+impl Default for Guard {
+    fn default() -> Self {
+        Self { retries: 3, energy: 10.0 }
+    }
 }
 
 /// A flow whose velocity and pressure are known at every place and time.

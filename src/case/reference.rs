@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::error::one_line;
 use super::text::{self, TextError};
 
 /// Values at places along a line, in ascending order of the coordinate.
@@ -20,7 +21,7 @@ pub struct Profile {
 pub enum ReferenceError {
     #[error(transparent)]
     Text(#[from] TextError),
-    #[error("{}: no column {column}; it has {}", path.display(), known.join(", "))]
+    #[error("{}: no column {}; it has {}", path.display(), one_line(column), known.join(", "))]
     NoColumn { path: PathBuf, column: String, known: Vec<String> },
     #[error("{}:{line}: {count} cells where the header names {expected}", path.display())]
     Cells { path: PathBuf, line: usize, count: usize, expected: usize },
@@ -123,6 +124,7 @@ mod tests {
             ("", None, "no header row"),
             ("y\n0\n1\n", None, "no column of values; it has y"),
             ("y,a\n0,1\n1,2\n", Some("b"), "no column b; it has y, a"),
+            ("y,a\n0,1\n1,2\n", Some("b\nc"), "no column b\\nc; it has y, a"),
             ("y,a\n0,1\n1,2\n", Some("y"), "no column y"),
             ("y,a\n0,1\n1\n", None, "p.csv:3: 1 cells where the header names 2"),
             ("#\ny,a\n0,x\n", None, "p.csv:3: \"x\" in column a is not a finite number"),

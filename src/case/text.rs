@@ -6,22 +6,29 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::error::one_line;
+
 /// Largest text file that is read, bytes: enough for any case or profile, too small for a mistaken path to hurt.
 const LARGEST: u64 = 1 << 20;
 
 /// Why a text file could not be read.
 #[derive(Debug, Error)]
 pub enum TextError {
-    #[error("{}: no such file", path.display())]
+    #[error("{}: no such file", plain(path))]
     Missing { path: PathBuf },
-    #[error("{}: a folder, where a file was expected", path.display())]
+    #[error("{}: a folder, where a file was expected", plain(path))]
     Folder { path: PathBuf },
-    #[error("{}: cannot be read: {source}", path.display())]
+    #[error("{}: cannot be read: {source}", plain(path))]
     Unreadable { path: PathBuf, source: io::Error },
-    #[error("{}: larger than {LARGEST} bytes, which is no case file or profile", path.display())]
+    #[error("{}: larger than {LARGEST} bytes, which is no case file or profile", plain(path))]
     TooLarge { path: PathBuf },
-    #[error("{}:{line}: not UTF-8 text", path.display())]
+    #[error("{}:{line}: not UTF-8 text", plain(path))]
     NotUtf8 { path: PathBuf, line: usize },
+}
+
+/// A path that a file gives may hold anything; an error is one line.
+fn plain(path: &Path) -> String {
+    one_line(&path.display().to_string())
 }
 
 /// The whole of a UTF-8 text file, without the byte order mark that some editors put first.

@@ -18,6 +18,8 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 the run failed or missed what it
 pub enum Command {
     /// Run a case and write its fields, diagnostics and pictures to a folder.
     Run(RunArguments),
+    /// Go on with a run that was interrupted, killed or failed, from its last checkpoint.
+    Resume(ResumeArguments),
     /// Check a case file without running it.
     Check(CaseArguments),
     /// Print the operations of one time step and the memory they take.
@@ -62,6 +64,22 @@ pub struct RunArguments {
     /// Floating-point numbers of the fields [default: what the engine does best].
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
+    /// Keep a state that `resume` can go on from after every N steps, at the next row of diagnostics.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub checkpoint_every: Option<u64>,
+    /// Draw no progress bar.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ResumeArguments {
+    /// The folder of the run.
+    #[arg(value_name = "RUN")]
+    pub run: PathBuf,
+    /// Steps between two checkpoints [default: those that the run was begun with].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub checkpoint_every: Option<u64>,
     /// Draw no progress bar.
     #[arg(long)]
     pub quiet: bool,
@@ -142,13 +160,13 @@ mod tests {
 
     #[test]
     fn every_option_of_run_reaches_its_field() {
-        let line = "stillpoint run c.toml --out d --force --engine cpu --adapter x --precision f32 --set a=1 --set b=2 --quiet";
+        let line = "stillpoint run c.toml --out d --force --engine cpu --adapter x --precision f32 --checkpoint-every 9 --set a=1 --set b=2 --quiet";
         let parsed = Arguments::try_parse_from(line.split(' ')).expect("a complete command line");
         let Command::Run(run) = parsed.command else { panic!("not a run: {parsed:?}") };
         assert_eq!(run.case.case, PathBuf::from("c.toml"));
         assert_eq!(run.case.overrides, ["a=1", "b=2"]);
         assert_eq!(run.out, Some(PathBuf::from("d")));
-        assert_eq!((run.force, run.quiet), (true, true));
+        assert_eq!((run.force, run.quiet, run.checkpoint_every), (true, true, Some(9)));
         assert_eq!((run.engine, run.precision), (EngineChoice::Cpu, Some(Precision::F32)));
         assert_eq!(run.adapter.as_deref(), Some("x"));
     }

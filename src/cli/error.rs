@@ -40,6 +40,14 @@ pub enum CliError {
     Interrupt(#[from] ctrlc::Error),
     #[error("{}: {source}", path.display())]
     Scene { path: PathBuf, source: SceneError },
+    #[error("{}: cannot go on where it began: {error}", path.display())]
+    Reopen { path: PathBuf, error: Box<CliError> },
+    #[error("--checkpoint-every: runs of points that move cannot be gone on with; leave it out")]
+    CheckpointMoving,
+    #[error("no engine computes {0}")]
+    UnknownEngine(String),
+    #[error("{}: the run came to its end; there is nothing to go on with", path.display())]
+    Over { path: PathBuf },
     #[error(transparent)]
     Simulation(#[from] SimulationError),
     #[error(transparent)]
@@ -78,9 +86,23 @@ impl CliError {
                 | CompareError::Domains { .. }
                 | CompareError::Reference(_),
             )
-            | CliError::Engine(EngineError::TooLarge { .. } | EngineError::Adapter(_))
+            | CliError::CheckpointMoving
+            | CliError::Engine(
+                EngineError::TooLarge { .. } | EngineError::OutOfMemory { .. } | EngineError::Adapter(_),
+            )
             | CliError::Simulation(SimulationError::TooFastForForward { .. })
-            | CliError::Output(OutputError::NotEmpty(_) | OutputError::NotAFolder(_)) => 2,
+            | CliError::UnknownEngine(_)
+            | CliError::Over { .. }
+            | CliError::Simulation(SimulationError::TooManySteps { .. })
+            | CliError::Output(
+                OutputError::NotEmpty(_)
+                | OutputError::NotAFolder(_)
+                | OutputError::Busy(_)
+                | OutputError::Checkpoint { .. }
+                | OutputError::Csv { .. },
+            ) => 2,
+            CliError::Output(OutputError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => 2,
+            CliError::Reopen { error, .. } => error.exit_code(),
             CliError::Print(_)
             | CliError::Interrupt(_)
             | CliError::Simulation(_)

@@ -39,7 +39,7 @@ mod tests {
     fn asked(case: &str, out: Option<&Path>, force: bool) -> RunArguments {
         let case = CaseArguments { case: case.into(), overrides: Vec::new() };
         let (engine, out) = (EngineChoice::Auto, out.map(Path::to_path_buf));
-        RunArguments { case, out, force, engine, adapter: None, precision: None, quiet: true }
+        RunArguments { case, out, force, engine, adapter: None, precision: None, checkpoint_every: None, quiet: true }
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod interrupt;
 mod plan;
 mod progress;
 mod render;
+mod resume;
 mod run;
 mod turns;
 
@@ -40,6 +41,7 @@ pub fn main() -> ExitCode {
 fn execute(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Run(arguments) => run::run(arguments),
+        Command::Resume(arguments) => resume::resume(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Plan(arguments) => plan::plan(arguments),
         Command::Cost(arguments) => cost::cost(arguments),

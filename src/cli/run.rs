@@ -11,7 +11,7 @@ use super::{CliError, load, print};
 use crate::case::Problem;
 use crate::measure::ExpectationResult;
 use crate::output::{RunFolder, StopReason, Summary};
-use crate::run;
+use crate::run::{self, Job, Report};
 use crate::scene::Scene;
 
 pub(super) fn run(arguments: &RunArguments) -> Result<(), CliError> {
@@ -21,10 +21,20 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), CliError> {
     let scene = Arc::new(Scene::build(&case).map_err(scene)?);
     let mut engine = open(&scene, arguments)?;
     let mut progress = Progress::new(case.time.end, arguments.quiet, StopFlag::on_interrupt()?);
+    if scene.plan.moves() && arguments.checkpoint_every.is_some() {
+        return Err(CliError::CheckpointMoving);
+    }
     let folder = RunFolder::create(&path, arguments.force)?;
-    let report = run::run(&arguments.case.case, &scene, engine.as_mut(), &folder, &mut progress)?;
+    let case_path = &arguments.case.case;
+    let job = Job { case_path, scene: &scene, folder: &folder, checkpoint_every: arguments.checkpoint_every };
+    let report = run::run(job, engine.as_mut(), &mut progress)?;
     progress.finish();
-    tell(&report.summary, &folder)?;
+    conclude(report, &folder)
+}
+
+/// Tells of a run that is over, and ends with its exit code.
+pub(super) fn conclude(report: Report, folder: &RunFolder) -> Result<(), CliError> {
+    tell(&report.summary, folder)?;
     if let Some(trouble) = report.trouble {
         return Err(CliError::Diverged(trouble));
     }
@@ -68,5 +78,9 @@ fn tell(summary: &Summary, folder: &RunFolder) -> Result<(), CliError> {
     for warning in &summary.warnings {
         print(format_args!("  warning: {warning}"))?;
     }
-    print(format_args!("written to {}", folder.path().display()))
+    print(format_args!("written to {}", folder.path().display()))?;
+    match folder.checkpoint().exists() {
+        true => print(format_args!("to go on: stillpoint resume {}", folder.path().display())),
+        false => Ok(()),
+    }
 }

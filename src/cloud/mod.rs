@@ -4,6 +4,7 @@ mod arrangement;
 mod fill;
 pub mod flux;
 pub mod grid;
+mod groups;
 mod open;
 mod period;
 pub mod voronoi;
@@ -12,6 +13,7 @@ mod wall;
 use glam::DVec2;
 
 use crate::case;
+pub use groups::first_apart;
 pub use open::{OpenPoint, open_points};
 pub use period::{inside, shortest};
 pub use wall::Side;
@@ -53,7 +55,14 @@ pub enum CloudError {
          allowed: any two points at least {least:e} m apart"
     )]
     Coincident { first: usize, second: usize, x: f64, y: f64, least: f64 },
+    #[error("point {point} at ({x}, {y}) m is outside the domain, {width} x {height} m")]
+    Outside { point: usize, x: f64, y: f64, width: f64, height: f64 },
+    #[error("{0}")]
+    Malformed(&'static str),
 }
+
+/// What rounding may put a point on a wall beside it, in spacings.
+const ROUNDING: f64 = 1e-6;
 
 impl Cloud {
     /// Lays out the points that `case` asks for. The same case gives the same points on every machine.
@@ -83,6 +92,37 @@ impl Cloud {
             period,
         };
         Ok(cloud)
+    }
+
+    /// What every cloud has to be, whoever laid it out.
+    ///
+    /// # Errors
+    /// No points, no spacing, a wall without its normals, a point outside the rectangle or nowhere.
+    pub fn check(&self) -> Result<(), CloudError> {
+        let walls = self.len().checked_sub(self.interior);
+        let positive = |length: f64| length.is_finite() && length > 0.0;
+        let malformed = match self {
+            _ if self.interior == 0 => Some("the cloud has no points inside"),
+            _ if !positive(self.spacing) => Some("the cloud's spacing is not a length above 0"),
+            _ if !(positive(self.size.x) && positive(self.size.y)) => Some("the cloud's domain has no area"),
+            _ if walls != Some(self.normal.len()) || walls != Some(self.sides.len()) => {
+                Some("the cloud's boundary points are not as many as their normals and sides")
+            }
+            _ => None,
+        };
+        if let Some(reason) = malformed {
+            return Err(CloudError::Malformed(reason));
+        }
+        let slack = ROUNDING * self.spacing;
+        let along = |at: f64, length: f64| at >= -slack && at <= length + slack;
+        let outside = |place: &DVec2| !(along(place.x, self.size.x) && along(place.y, self.size.y));
+        match self.position.iter().position(outside) {
+            Some(point) => {
+                let (DVec2 { x, y }, DVec2 { x: width, y: height }) = (self.position[point], self.size);
+                Err(CloudError::Outside { point, x, y, width, height })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Number of points, interior and boundary.

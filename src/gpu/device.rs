@@ -13,6 +13,9 @@ use crate::engine::{AdapterInfo, EngineError};
 /// How long one submission may take before the GPU counts as hung.
 const PATIENCE: Duration = Duration::from_secs(120);
 
+/// Most characters of what a driver says that are passed on.
+const LONGEST_LINE: usize = 300;
+
 /// A GPU, opened.
 pub struct Gpu {
     pub(super) device: Device,
@@ -90,7 +93,7 @@ impl Gpu {
         // Scopes nest: the last one pushed is the first one popped.
         let errors: Vec<_> = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
         match errors.into_iter().next() {
-            Some(error) => Err(EngineError::Device(format!("{what}: {error}"))),
+            Some(error) => Err(explain(what, &error)),
             None => self.healthy().map(|()| result),
         }
     }
@@ -118,5 +121,23 @@ impl Gpu {
 }
 
 fn note(fault: &Mutex<Option<String>>, message: String) {
-    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(one_line(&message));
+}
+
+/// What a device objects to, as an error of the engine.
+pub(super) fn explain(what: &str, error: &wgpu::Error) -> EngineError {
+    match error {
+        wgpu::Error::OutOfMemory { .. } => EngineError::OutOfMemory { what: what.to_owned() },
+        error => EngineError::Device(format!("{what}: {}", one_line(&error.to_string()))),
+    }
+}
+
+/// Drivers and shader compilers say it on many lines.
+fn one_line(message: &str) -> String {
+    let words: Vec<&str> = message.split_whitespace().collect();
+    let line = words.join(" ");
+    match line.char_indices().nth(LONGEST_LINE) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line,
+    }
 }

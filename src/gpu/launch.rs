@@ -68,13 +68,14 @@ impl<'a> Compiler<'a> {
         let allowed = self.gpu.limits.max_storage_buffers_per_shader_stage;
         if bindings.len() > allowed as usize {
             let (what, needed) = (format!("arrays bound at once by {}", stage.name), bindings.len());
-            return Err(EngineError::Device(format!("{what}: {needed}, and the adapter allows {allowed}")));
+            return Err(EngineError::Adapter(format!(
+                "{what}: {needed}, and the adapter allows {allowed}; use the CPU engine"
+            )));
         }
         let (pipeline, layout) = match self.compiled.get(&source) {
             Some(compiled) => compiled.clone(),
             None => {
-                let compiled =
-                    self.gpu.checked(stage.name, |device| compile(device, stage.name, &source, &bindings))?;
+                let compiled = built(self.gpu, stage.name, &source, &bindings)?;
                 self.compiled.insert(source, compiled.clone());
                 compiled
             }
@@ -88,6 +89,19 @@ impl<'a> Compiler<'a> {
         let group = self.gpu.checked(stage.name, |device| device.create_bind_group(&descriptor))?;
         Ok(Launch { pipeline, group, extent: stage.extent })
     }
+}
+
+/// A shader that the driver takes.
+pub(super) fn built(
+    gpu: &Gpu,
+    name: &str,
+    source: &str,
+    bindings: &[Binding],
+) -> Result<(ComputePipeline, BindGroupLayout), EngineError> {
+    gpu.checked(name, |device| compile(device, name, source, bindings)).map_err(|error| match error {
+        EngineError::Device(message) => EngineError::Shader { name: name.to_owned(), message },
+        error => error,
+    })
 }
 
 fn compile(device: &Device, name: &str, source: &str, bindings: &[Binding]) -> (ComputePipeline, BindGroupLayout) {

@@ -1,14 +1,14 @@
 //! diagnostics.csv: one row a report, on disk before the next step begins.
 
-use std::fs::File;
-use std::io::Write;
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
-use super::file::finite;
+use super::file::{finite, write_whole};
 use crate::simulation::Diagnostics;
 
-const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_iterations,residual,change";
+const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_iterations,residual,change,limit";
 
 /// Appends rows to a new file.
 #[derive(Debug)]
@@ -24,8 +24,53 @@ impl DiagnosticsWriter {
     /// Errors of the file system.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         let mut file = File::create(path).map_err(OutputError::io(path))?;
+        hold(&file);
         writeln!(file, "{HEADER}").map_err(OutputError::io(path))?;
         Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// Goes on with the file of a run from its state after `step`: rows behind that one, and one that a kill cut off, are
+    /// dropped, to be made again.
+    ///
+    /// # Errors
+    /// A file that is not of this kind, or lacks the row of that step; errors of the file system.
+    pub fn resume(path: &Path, step: u64) -> Result<Self, OutputError> {
+        let wrong = |line: usize, what: &str| OutputError::Csv { path: path.to_owned(), line, what: what.to_owned() };
+        let mut file = BufReader::new(File::open(path).map_err(OutputError::io(path))?);
+        let (mut kept, mut lines, mut last) = (Vec::new(), 0, 0);
+        loop {
+            let begin = kept.len();
+            file.read_until(b'\n', &mut kept).map_err(OutputError::io(path))?;
+            let line = kept[begin..].strip_suffix(b"\n");
+            let step_of =
+                |line: &[u8]| std::str::from_utf8(line.split(|&byte| byte == b',').next()?).ok()?.parse().ok();
+            match line {
+                Some(line) if lines == 0 && line == HEADER.as_bytes() => {}
+                Some(line) if lines > 0 => match step_of(line) {
+                    Some(row) if row <= step => last = row,
+                    Some(_) => kept.truncate(begin),
+                    None => return Err(wrong(lines + 1, "does not begin with the number of a step")),
+                },
+                _ if lines == 0 => return Err(wrong(1, "not the header of a run's diagnostics")),
+                _ => kept.truncate(begin),
+            }
+            if kept.len() == begin {
+                break;
+            }
+            lines += 1;
+        }
+        if last != step {
+            return Err(wrong(lines, &format!("the row of step {step}, which the checkpoint is of, is not there")));
+        }
+        write_whole(path, |file| file.write_all(&kept).map_err(OutputError::io(path)))?;
+        let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
+        hold(&file);
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// Has the rows on the disk itself: they are to be there before a checkpoint that counts on them.
+    pub fn sync(&mut self) -> Result<(), OutputError> {
+        self.file.sync_data().map_err(OutputError::io(&self.path))
     }
 
     /// Appends one row and flushes it.
@@ -43,6 +88,7 @@ impl DiagnosticsWriter {
             pressure_iterations,
             residual,
             change,
+            limit,
         } = row;
         for (field, value) in [
             ("time", time),
@@ -58,10 +104,15 @@ impl DiagnosticsWriter {
         // One write a row: a reader never sees half of one.
         let line = format!(
             "{step},{time:?},{dt:?},{kinetic_energy:?},{max_speed:?},{divergence:?},{pressure_iterations},{residual:?},\
-             {change:?}\n"
+             {change:?},{limit}\n"
         );
         self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
     }
+}
+
+/// Others are to see that a run goes on here. Not every file system can tell them: then there is no more to do.
+fn hold(file: &File) {
+    let _ = file.try_lock();
 }
 
 #[cfg(test)]
@@ -79,8 +130,30 @@ mod tests {
         let error = writer.append(&broken).unwrap_err().to_string();
         assert!(error.starts_with("change of step 50 is inf"), "{error}");
         writer.append(&Diagnostics { step: 100, residual: 1e-7, ..row }).unwrap();
-        let rows = "50,0.1,0.0,0.0,1.0,0.0,12,0.0,0.0\n100,0.1,0.0,0.0,1.0,0.0,12,1e-7,0.0\n";
+        let rows = "50,0.1,0.0,0.0,1.0,0.0,12,0.0,0.0,end\n100,0.1,0.0,0.0,1.0,0.0,12,1e-7,0.0,end\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("{HEADER}\n{rows}"));
+    }
+
+    #[test]
+    fn a_file_is_gone_on_with_after_the_row_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnostics.csv");
+        let whole = format!("{HEADER}\n5,0.1\n10,0.2\n15,0.3\n");
+        let resumed = |text: &str, step: u64| {
+            std::fs::write(&path, text).unwrap();
+            let resumed = DiagnosticsWriter::resume(&path, step).map(|_| ()).map_err(|error| error.to_string());
+            resumed.map(|()| std::fs::read_to_string(&path).unwrap())
+        };
+        assert_eq!(resumed(&whole, 10), Ok(format!("{HEADER}\n5,0.1\n10,0.2\n")));
+        assert_eq!(resumed(&whole, 15), Ok(whole.clone()));
+        assert_eq!(resumed(&whole, 0), Ok(format!("{HEADER}\n")));
+        assert_eq!(resumed(&format!("{whole}1"), 15), Ok(whole.clone()), "half a row, whose number is a small one");
+        let lacks = resumed(&whole, 20).unwrap_err();
+        assert!(
+            lacks.ends_with("diagnostics.csv, line 4: the row of step 20, which the checkpoint is of, is not there")
+        );
+        assert!(resumed("step\n5\n", 5).unwrap_err().contains("line 1: not the header"));
+        assert!(resumed(&format!("{HEADER}\n5,0\nx\n"), 5).unwrap_err().contains("line 3: does not begin with"));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::checkpoint::CheckpointTrouble;
 use crate::measure::MeasureError;
 
 #[derive(Debug, Error)]
@@ -12,6 +13,8 @@ pub enum OutputError {
     Io { path: PathBuf, source: std::io::Error },
     #[error("{} is not empty; choose another folder or overwrite it with --force", .0.display())]
     NotEmpty(PathBuf),
+    #[error("{}: another process is running there", .0.display())]
+    Busy(PathBuf),
     #[error("{} is not a folder", .0.display())]
     NotAFolder(PathBuf),
     #[error("{field} of point {point} is {value}: nothing is written that is not a finite number")]
@@ -26,6 +29,8 @@ pub enum OutputError {
     Json { path: PathBuf, source: serde_json::Error },
     #[error("{}: {source}", path.display())]
     Image { path: PathBuf, source: image::ImageError },
+    #[error("{}: {trouble}", path.display())]
+    Checkpoint { path: PathBuf, trouble: CheckpointTrouble },
     #[error("the built-in font could not be read")]
     Font,
     #[error(transparent)]

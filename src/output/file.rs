@@ -7,6 +7,9 @@ use std::path::Path;
 use super::OutputError;
 use crate::snapshot::Snapshot;
 
+/// How the name of a file ends that is not whole yet.
+pub(super) const PART: &str = ".part";
+
 /// Writes a file under a temporary name beside it and renames it once it is whole.
 ///
 /// # Errors
@@ -15,13 +18,40 @@ pub(crate) fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
 ) -> Result<(), OutputError> {
+    write_and(path, write, |_| Ok(()))
+}
+
+/// The same, and the disk has it before it takes the place of what was there: it outlives the machine's sudden end too.
+///
+/// # Errors
+/// As [`write_whole`].
+pub(crate) fn write_durable(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
+) -> Result<(), OutputError> {
+    write_and(path, write, |file| file.sync_all().map_err(OutputError::io(path)))?;
+    // The new name is in the folder, and so is to be on the disk too; not every system opens folders.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if cfg!(unix) {
+        File::open(folder).and_then(|folder| folder.sync_all()).map_err(OutputError::io(folder))
+    } else {
+        Ok(())
+    }
+}
+
+fn write_and(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
+    settle: impl FnOnce(&File) -> Result<(), OutputError>,
+) -> Result<(), OutputError> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
+    name.push(format!(".{}{PART}", std::process::id()));
     let temporary = path.with_file_name(name);
     let written = (|| {
         let mut file = BufWriter::new(File::create(&temporary).map_err(OutputError::io(&temporary))?);
         write(&mut file)?;
         file.flush().map_err(OutputError::io(path))?;
+        settle(file.get_ref())?;
         fs::rename(&temporary, path).map_err(OutputError::io(path))
     })();
     if written.is_err() {

@@ -1,13 +1,15 @@
 //! The folder of one run.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
+use super::file::PART;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 16] = [
+const FILES: [&str; 17] = [
+    "checkpoint",
     "points.csv",
     "points.vtu",
     "diagnostics.csv",
@@ -47,6 +49,8 @@ impl RunFolder {
         fs::create_dir_all(path).map_err(OutputError::io(path))?;
         let folder = Self { path: path.to_owned() };
         if force {
+            folder.check_free()?;
+            folder.remove_parts()?;
             let entries = fs::read_dir(path).map_err(OutputError::io(path))?;
             let tracers = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
             let tracers = tracers.filter(|name| name.starts_with(TRACER) && name.ends_with(".png"));
@@ -71,8 +75,53 @@ impl RunFolder {
         Ok(Self { path: path.to_owned() })
     }
 
+    /// The folder of a run that is to go on. What a kill left half written is removed.
+    ///
+    /// # Errors
+    /// A path that is not a folder, one that another process runs in, errors of the file system.
+    pub fn resume(path: &Path) -> Result<Self, OutputError> {
+        let folder = Self::open(path)?;
+        folder.check_free()?;
+        folder.remove_parts()?;
+        Ok(folder)
+    }
+
+    /// A run that goes on holds its diagnostics.
+    fn check_free(&self) -> Result<(), OutputError> {
+        let held = File::open(self.diagnostics()).map(|file| file.try_lock());
+        match held {
+            Ok(Err(TryLockError::WouldBlock)) => Err(OutputError::Busy(self.path.clone())),
+            _ => Ok(()),
+        }
+    }
+
+    /// Removes files of a run that are not whole.
+    fn remove_parts(&self) -> Result<(), OutputError> {
+        for entry in fs::read_dir(&self.path).map_err(OutputError::io(&self.path))? {
+            let file = entry.map_err(OutputError::io(&self.path))?.path();
+            let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let of_a_run = FILES.iter().any(|known| name.strip_prefix(known).is_some_and(|rest| rest.starts_with('.')));
+            if (of_a_run || name.starts_with(TRACER)) && name.ends_with(PART) {
+                remove(&file)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Of a run that came to its end.
+    ///
+    /// # Errors
+    /// Errors of the file system, but for a checkpoint that is not there.
+    pub fn remove_checkpoint(&self) -> Result<(), OutputError> {
+        remove(&self.checkpoint())
+    }
+
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    pub fn checkpoint(&self) -> PathBuf {
+        self.path.join("checkpoint")
     }
 
     pub fn points(&self) -> PathBuf {
@@ -184,6 +233,7 @@ fn remove_frames(frames: &Path) -> Result<(), OutputError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::DiagnosticsWriter;
     use super::*;
 
     #[test]
@@ -205,6 +255,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let folder = RunFolder::open(root.path()).unwrap();
         for path in [
+            folder.checkpoint(),
             folder.points(),
             folder.vtu(),
             folder.diagnostics(),
@@ -212,6 +263,8 @@ mod tests {
             folder.pressure_picture(),
             folder.speed_picture(),
             folder.centreline_picture(),
+            folder.carried_picture("temperature"),
+            folder.carried_picture("ink"),
             folder.gradient_picture(),
             folder.laplacian_picture(),
             folder.motion(),
@@ -244,6 +297,35 @@ mod tests {
         let mut left: Vec<_> = left.collect();
         left.sort();
         assert_eq!(left, ["0003.txt", "mine.csv"]);
+    }
+
+    #[test]
+    fn what_a_kill_left_half_written_is_removed_and_nothing_else() {
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        for name in ["checkpoint.17.part", "summary.json.9.part", "notes.part", "checkpoint"] {
+            fs::write(path(name), "").unwrap();
+        }
+        RunFolder::resume(root.path()).unwrap();
+        let left =
+            ["checkpoint.17.part", "summary.json.9.part", "notes.part", "checkpoint"].map(|name| path(name).exists());
+        assert_eq!(left, [false, false, true, true]);
+    }
+
+    #[test]
+    fn a_folder_that_a_run_is_in_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = RunFolder::create(root.path(), false).unwrap();
+        let writer = DiagnosticsWriter::create(&folder.diagnostics()).unwrap();
+        assert!(matches!(RunFolder::resume(root.path()), Err(OutputError::Busy(_))));
+        assert!(matches!(RunFolder::create(root.path(), true), Err(OutputError::Busy(_))));
+        assert!(folder.diagnostics().exists());
+        drop(writer);
+        RunFolder::resume(root.path()).unwrap();
+        let writer = DiagnosticsWriter::resume(&folder.diagnostics(), 0).unwrap();
+        assert!(matches!(RunFolder::resume(root.path()), Err(OutputError::Busy(_))));
+        drop(writer);
+        RunFolder::create(root.path(), true).unwrap();
     }
 
     #[test]

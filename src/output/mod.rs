@@ -1,5 +1,6 @@
 //! A run's folder: what each file in it is called, how it is written and how it is read back.
 
+pub mod checkpoint;
 mod diagnostics;
 mod error;
 pub(crate) mod file;

@@ -30,6 +30,7 @@ pub struct Summary {
     /// Time reached, s.
     pub time: f64,
     pub stop: StopReason,
+    /// Of this process: of a run that was gone on with, since then.
     pub seconds: Seconds,
     pub fallbacks: Fallbacks,
     /// Pressure iterations of all steps.

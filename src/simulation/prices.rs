@@ -43,15 +43,15 @@ const ENOUGH: Duration = Duration::from_millis(500);
 
 /// Times the steps of `scene` on an engine that takes times, from the beginning of the run on.
 pub fn prices(scene: &Scene, engine: &mut dyn Engine) -> Result<Prices, SimulationError> {
-    let (limit, warnings, watch) = (f64::INFINITY, Vec::new(), super::Watch::new(scene));
-    let mut run = Run { scene, engine, observer: &mut (), limit, warnings, watch };
+    let mut observer = ();
+    let mut run = Run::new(scene, engine, &mut observer);
     let any = scene.clock(1.0);
     for &operation in &scene.plan.setup {
         run.engine.apply(operation, &any)?;
     }
     run.limit = run.stability_limit()?;
     let speed = scene.initial_velocity().iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-    let dt = run.step(speed, 0.0)?;
+    let (dt, _) = run.step(speed, 0.0, 0)?;
     run.begin_steps(dt)?;
     run.first_kick(dt)?;
     let clock = scene.clock(dt);

@@ -376,4 +376,46 @@ impl Operation {
             Operation::Laplacian => vec![FieldLaplacian],
         }
     }
+
+    /// Arrays among them that it writes whole, whatever they held: what they held before need not be kept. Of an operation
+    /// that is not named here, every array is taken to matter.
+    pub fn fills(self) -> Vec<Buffer> {
+        use Buffer::*;
+        match self {
+            Operation::BuildCells(_)
+            | Operation::FindNeighbours(_)
+            | Operation::Factorise(_)
+            | Operation::AssembleLaplacian
+            | Operation::AssembleGradient
+            | Operation::AssembleIntegralLaplacian
+            | Operation::AssembleIntegralGradient
+            | Operation::AssembleCollocated
+            | Operation::FitVelocity(_)
+            | Operation::FindDepartures
+            | Operation::FitScalar(_)
+            | Operation::Diffuse(_, Stage::Start)
+            | Operation::MovePoints
+            | Operation::KeepVelocity
+            | Operation::ClearKick
+            | Operation::Predict
+            | Operation::Divergence
+            | Operation::DivergenceByFit
+            | Operation::CollocatedSource
+            | Operation::FindSurface
+            | Operation::FactoriseMirrored
+            | Operation::FitPredicted
+            | Operation::FitMirrored
+            | Operation::DirectSolve => self.writes(),
+            Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source],
+            Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Displacement],
+            Operation::Collide => vec![Kick],
+            Operation::EstimateMiddle => vec![Projected],
+            // The solution begins from the one at hand.
+            Operation::ConjugateGradient | Operation::Bicgstab => {
+                self.writes().into_iter().filter(|&buffer| buffer != Pressure).collect()
+            }
+            Operation::Reflect => vec![Reflected],
+            _ => vec![],
+        }
+    }
 }

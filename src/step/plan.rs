@@ -426,6 +426,33 @@ impl Plan {
         buffers
     }
 
+    /// The arrays that a run needs, beside what the scene begins with and the setup makes of it, to go on from between two
+    /// steps as if it had not been away: those that a step changes and that it, or a report, reads before they are written.
+    pub fn state(&self) -> Vec<Buffer> {
+        let step: Vec<Operation> = self.drift.iter().chain(&self.kick).copied().collect();
+        // Of a velocity that stays too: what is reported can be made from the state alone.
+        let mut changed = vec![Buffer::Projected, Buffer::Reported];
+        let mut needed = vec![Buffer::Projected, Buffer::Reported];
+        if self.splitting == Splitting::Reflection {
+            needed.extend([Buffer::Reflected, Buffer::PressureKick]);
+        }
+        if self.form.is_some() {
+            needed.push(Buffer::Pressure);
+        }
+        let mut filled = Vec::new();
+        for operation in step {
+            let (writes, fills) = (operation.writes(), operation.fills());
+            let read = operation.reads(self).into_iter().chain(writes.iter().copied().filter(|b| !fills.contains(b)));
+            needed.extend(read.filter(|buffer| !filled.contains(buffer)));
+            changed.extend(writes);
+            filled.extend(fills);
+        }
+        needed.retain(|buffer| changed.contains(buffer));
+        needed.sort_unstable();
+        needed.dedup();
+        needed
+    }
+
     /// Bytes of one array, for floats of `real` bytes.
     pub fn bytes(&self, buffer: Buffer, sizes: &Sizes, real: usize) -> usize {
         let entry = match buffer.element() {

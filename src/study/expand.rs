@@ -9,6 +9,7 @@ use super::keys::{KNOBS, STUDY_FILE};
 use super::planned::Planned;
 use super::setting::{Knobs, Setting, Trial, in_words, refuse};
 use crate::case::document::Document;
+use crate::case::error::one_line;
 use crate::case::fault::Fault;
 use crate::case::load::{Change, explain};
 use crate::case::{Case, CaseError, keys};
@@ -89,8 +90,12 @@ impl<'a> Expansion<'a> {
         }
         let path = self.path.parent().unwrap_or(Path::new("")).join(&plan.case.0);
         let mut case = Case::load_changed(&path, &changes).map_err(|error| match error {
-            CaseError::Text(error) => fault(&plan.case.1, error.to_string()),
-            error => error,
+            CaseError::Text(error) => fault(&plan.case.1, error.to_string()).into(),
+            // A key that stands in the case, at odds with what the study makes of others.
+            error if error.is_in(&path) => {
+                StudyError::Case { path: self.path.to_owned(), setting: one_line(words), source: error }
+            }
+            error => error.into(),
         })?;
         let (error, at) = &plan.error;
         if !case.expect.contains_key(error) {
@@ -113,7 +118,7 @@ impl<'a> Expansion<'a> {
         if case.point_estimate() > CHEAP || self.trials.iter().any(|trial| same(&trial.case)) {
             return Ok(());
         }
-        let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: words.to_owned(), source };
+        let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: one_line(words), source };
         Scene::build(case).map(|_| ()).map_err(failed)
     }
 }

@@ -17,7 +17,7 @@ const ALLOWED: &Words = &[
     ("along", "a key that is varied"),
     ("repeats", "a whole number from 1 to 1000"),
     ("repeat_below", "a time from 0, s"),
-    ("most_runs", "a whole number from 1 to 4294967295"),
+    ("most_runs", "a whole number from 1 to 10000"),
     ("set", "a table of keys of the case, and of engine, precision, adapter, threads"),
     ("set.engine", r#""cpu" or "gpu""#),
     ("set.precision", r#""f32" or "f64""#),

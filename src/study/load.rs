@@ -40,10 +40,14 @@ pub enum StudyError {
     #[error(transparent)]
     File(#[from] CaseError),
     #[error("{}: with {setting}: {source}", path.display())]
+    Case { path: PathBuf, setting: String, source: CaseError },
+    #[error("{}: with {setting}: {source}", path.display())]
     Scene { path: PathBuf, setting: String, source: SceneError },
 }
 
 const MOST_REPEATS: u32 = 1000;
+/// Each is a case that is loaded before the first is run.
+const MOST_RUNS: u32 = 10_000;
 
 impl Study {
     /// Reads and checks a study file, and loads the case of each of its settings. `overrides` are `key=value`, as after
@@ -52,7 +56,15 @@ impl Study {
     /// # Errors
     /// The first thing wrong with the file, with a case, or with a key that it changes; a GPU that is not there.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let mut document = Document::parse(&text::read(path).map_err(CaseError::from)?, path)?;
+        Self::from_text(&text::read(path).map_err(CaseError::from)?, path, overrides)
+    }
+
+    /// As [`Study::load`], of a text that is not read from `path`: errors name it, cases are looked for beside it.
+    ///
+    /// # Errors
+    /// As [`Study::load`].
+    pub fn from_text(text: &str, path: &Path, overrides: &[String]) -> Result<Self, StudyError> {
+        let mut document = Document::parse(text, path)?;
         overrides.iter().try_for_each(|given| document.set(given))?;
         let file = decode::<StudyFile>(document.root()).and_then(|file| check(&file).map(|()| file));
         let mut file = file.map_err(|fault| explain(fault, &document, &STUDY_FILE))?;
@@ -82,6 +94,6 @@ fn check(file: &StudyFile) -> Result<(), Fault> {
     require(is_line(&file.title), "title")?;
     require((1..=MOST_REPEATS).contains(&file.repeats), "repeats")?;
     require(file.repeat_below >= 0.0, "repeat_below")?;
-    require(file.most_runs >= 1, "most_runs")?;
+    require((1..=MOST_RUNS).contains(&file.most_runs), "most_runs")?;
     require(file.targets.iter().all(|target| *target > 0.0), "targets")
 }

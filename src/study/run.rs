@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use super::timed::Timed;
 use super::{EngineKind, Precision, Trial};
+use crate::case::{Case, Guard};
 use crate::engine::{Engine, EngineError};
 use crate::gpu::adapter::{self, Candidate};
 use crate::gpu::{self, Gpu, GpuEngine};
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{Diagnostics, Observer, SimulationError, Stop, simulate};
+use crate::simulation::{Diagnostics, Observer, SimulationError, Stop, Trouble, simulate};
 use crate::{cpu, measure, run};
 
 /// What one run gave. The case is read before the clocks start, the error is measured after they stop.
@@ -139,7 +140,9 @@ impl Trial {
         (cpu, wall): (ProcessTime, Instant),
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Run>, Failure> {
-        let scene = Arc::new(Scene::build(&self.case)?);
+        // A setting is measured as it is: with the steps that it asks for, or not at all.
+        let guard = Guard { retries: 0, ..self.case.guard.clone() };
+        let scene = Arc::new(Scene::build(&Case { guard, ..self.case.clone() })?);
         let mut engine = self.open(&scene, gpu)?;
         let mut engine = Timed::new(engine.as_mut(), &scene.plan);
         let opened = wall.elapsed().as_secs_f64();
@@ -159,7 +162,10 @@ impl Trial {
             Stop::Interrupted => return Ok(None),
             Stop::Steady => End::Steady,
             Stop::End => End::Time,
-            Stop::NonFinite { .. } | Stop::Diverged { .. } => End::Diverged { after: outcome.snapshot.time },
+            Stop::Trouble { trouble: trouble @ (Trouble::Engine(_) | Trouble::Refused(_)), .. } => {
+                End::Failed { reason: trouble.to_string() }
+            }
+            Stop::Trouble { .. } => End::Diverged { after: outcome.snapshot.time },
         };
         let measured = match end.is_good() {
             true => measure::evaluate(&self.case, &outcome.snapshot, &run::profiles(&self.case)?)?.into_iter().next(),

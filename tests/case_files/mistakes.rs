@@ -53,8 +53,8 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("arrangement = \"random\"", "arrangement = \"regular\"\nminimum_distance = 0.7", "bad.toml:7: cloud.minimum_distance = 0.7: belongs to random points"),
     ("arrangement = \"random\"", "arrangement = \"jittered\"\njitter = 0.5", "bad.toml:7: cloud.jitter = 0.5: must be a number from 0 to below 0.5, in spacings"),
     ("arrangement = \"random\"", "arrangement = \"jittered\"\njitter = -0.1", "bad.toml:7: cloud.jitter = -0.1: must be a number from 0"),
-    ("spacing = 0.1", "spacing = 0.1\nminimum_distance = 0", "bad.toml:8: cloud.minimum_distance = 0: must be a number above 0 and at most 0.75, in spacings"),
-    ("spacing = 0.1", "spacing = 0.1\nminimum_distance = 0.76", "bad.toml:8: cloud.minimum_distance = 0.76: must be a number above 0 and at most 0.75"),
+    ("spacing = 0.1", "spacing = 0.1\nminimum_distance = 0", "bad.toml:8: cloud.minimum_distance = 0: must be a number from 0.1 to 0.75, in spacings"),
+    ("spacing = 0.1", "spacing = 0.1\nminimum_distance = 0.76", "bad.toml:8: cloud.minimum_distance = 0.76: must be a number from 0.1 to 0.75"),
     ("spacing = 0.1", "spacing = 0.1\nseed = -1", "bad.toml:8: cloud.seed = -1: must be a whole number from 0"),
     ("density = 1.0", "density = 0.0", "bad.toml:9: fluid.density = 0.0: must be a number above 0, kg/m^3"),
     ("[1.0, 0.0]", "[1.0, 0.5]", "bad.toml:11: boundaries.top.velocity = [1.0, 0.5]: must be along the wall, [u, 0]: a solid wall lets no fluid through"),
@@ -106,6 +106,9 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("line = { x = 0.5 }\nmeasure = \"minimum\"", "measure = \"minimum\"", "bad.toml:25: expect.u_min.line is missing: it must be { x = NUMBER } or { y = NUMBER }"),
     ("measure = \"minimum\"", "measure = \"error\"", "bad.toml:28: expect.u_min.measure = \"error\": there is no exact solution: the table exact is absent"),
     ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "component = \"velocity\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:26: expect.u_min.component = \"velocity\": belongs to other measures"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nretries = 21", "bad.toml:24: guard.retries = 21: must be a whole number from 0 to 20"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nretries = -1", "bad.toml:24: guard.retries = -1: must be a whole number from 0 to 20"),
+    ("courant = 0.8", "courant = 0.8\n[guard]\nenergy = 1.0", "bad.toml:24: guard.energy = 1.0: must be a number above 1"),
     ("[expect.u_min]", "[expect.\"u min\"]", "bad.toml:25: expect.\"u min\" = {"),
 ];
 

@@ -22,6 +22,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("[vary]\ncloud.spacing = [0.125, 0.0625]\nprecision = [\"f32\", \"f64\"]\n", "", "study.toml: vary is missing: it must be a table of keys as in [set], each with a list of values"),
     // The case and what it expects.
     ("cases/cavity_re100_regular.toml", "cases/none.toml", "study.toml:2: case = \"cases/none.toml\": cases/none.toml: no such file"),
+    ("cases/cavity_re100_regular.toml", "a\\nb.toml", "study.toml:2: case = \"a\\nb.toml\": a\\nb.toml: no such file"),
     ("case = \"cases/cavity_re100_regular.toml\"\n", "", "study.toml: case is missing: it must be the path of a case file, from the study file's folder"),
     ("\"u_min\"", "\"u_mn\"", "study.toml:3: error = \"u_mn\": cases/cavity_re100_regular.toml has no [expect.u_mn] (did you mean u_min?); it has u_ghia, u_min, u_profile, v_ghia, v_max, v_min, v_profile"),
     // What is set and varied.
@@ -41,6 +42,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("precision = [\"f32\", \"f64\"]", "ways = [{ label = 3 }]", "study.toml:10: vary.ways[0].label = 3: must be one line of text that names the choice"),
     ("precision = [\"f32\", \"f64\"]", "ways = [{ label = \"a\", cloud.spacing = 0.25 }]", "study.toml:9: cloud.spacing = 0.125: is varied by ways and by cloud.spacing"),
     ("precision = [\"f32\", \"f64\"]", "method.radius = [1.6]", "study.toml: with radius 1.6, 1/8: method.radius = 1.6: point 49 at (0, 0) m has 3 neighbours; allowed: a radius that gives every point 5"),
+    ("time.end = 0.5", "domain.periodic = \"y\"", "study.toml: with f32, 1/8: cases/cavity_re100_regular.toml:17: boundaries.top.velocity = [1.0, 0.0]: the domain repeats along y (domain.periodic), so that there is no wall; leave it out"),
     // Grids.
     ("[set]", "[[grid]]\nlabl = \"a\"\n[set]", "study.toml:6: grid[0].labl is not a key (did you mean grid[0].label?); [grid[0]] has label, case, error, along, set, vary"),
     ("[set]", "[[grid]]\ncase = \"none.toml\"\n[set]", "study.toml:6: grid[0].case = \"none.toml\": none.toml: no such file"),

@@ -16,11 +16,13 @@ impl Random {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
+    #[allow(dead_code, reason = "not every file of tests asks for it")]
     pub fn vector(&mut self) -> DVec2 {
         let x = self.number();
         DVec2::new(x, self.number())
     }
 
+    #[allow(dead_code, reason = "not every file of tests asks for it")]
     pub fn numbers(&mut self, count: usize) -> Vec<f64> {
         (0..count).map(|_| self.number()).collect()
     }

@@ -18,5 +18,6 @@ mod memory;
 mod operations;
 mod runs;
 mod scenes;
+mod state;
 mod times;
 mod trouble;

@@ -8,7 +8,7 @@ use stillpoint::engine::Engine;
 use stillpoint::gpu::Precision;
 use stillpoint::measure::{LineMeasure, Sampler};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Outcome, Stop, simulate};
+use stillpoint::simulation::{Diagnostics, Observer, Outcome, State, Stop, resume, simulate};
 
 use crate::cases::{cavity_of, turning};
 use crate::engines::{candidate, gpu};
@@ -55,6 +55,45 @@ fn the_same_seed_gives_the_same_bits_and_another_seed_others() {
     let first = bits("cloud.seed=1");
     assert!(first == bits("cloud.seed=1"));
     assert!(first != bits("cloud.seed=2"));
+}
+
+/// Keeps the state after so many rows.
+struct Keeper(usize, Option<State>);
+
+impl Observer for Keeper {
+    fn report(&mut self, _: &Diagnostics) {
+        self.0 = self.0.wrapping_sub(1);
+    }
+
+    fn stop_requested(&self) -> bool {
+        false
+    }
+
+    fn keep(&mut self, state: &State) {
+        if self.0 == 0 {
+            self.1.get_or_insert_with(|| state.clone());
+        }
+    }
+}
+
+#[test]
+fn a_run_in_two_gives_the_same_bits_as_one_in_one_go() {
+    let Some(candidate) = candidate() else { return };
+    for form in ["effects.pressure.form=conservative", "effects.pressure.form=collocated"] {
+        let base = ["cloud.arrangement=jittered", "time.end=0.3", "output.report_every=2", form];
+        let scene = Arc::new(Scene::build(&cavity_of(16, &base)).expect("a scene"));
+        let open = || gpu(&candidate, &scene, Precision::Single);
+        let mut keeper = Keeper(2, None);
+        let whole = simulate(&scene, &mut open(), &mut keeper).expect("a run");
+        let state = keeper.1.expect("a state after two rows");
+        assert!(state.progress.step == 4 && whole.steps > 4, "{form}");
+        let rest = resume(&scene, &mut open(), &mut (), state).expect("the rest of it");
+        assert!(numbers(&rest) == numbers(&whole), "{form}");
+        assert_eq!(
+            (rest.steps, rest.iterations, rest.state.progress),
+            (whole.steps, whole.iterations, whole.state.progress)
+        );
+    }
 }
 
 #[test]

@@ -14,6 +14,8 @@ pub const LARGEST_RADIUS: f64 = 5.0;
 /// The widest radius that the fit of a point with too few neighbours takes, over `method.radius`.
 pub const WIDEST_LADDER: f64 = 2.0;
 
+/// Least distance of random points, in spacings: they are laid out on a grid of squares of that size.
+const SMALLEST_DISTANCE: f64 = 0.1;
 /// Fewest spacings along a side.
 const FEWEST_CELLS: f64 = 4.0;
 /// Part of a spacing by which a side may miss a whole number of them: room for decimals like 0.3333333.
@@ -112,7 +114,7 @@ fn check_arrangement(cloud: &Cloud) -> Result<(), Fault> {
     belongs(cloud.seed.is_some(), &[Jittered, Random], "cloud.seed", "jittered or random")?;
     require((0.0..0.5).contains(&cloud.jitter()), "cloud.jitter")?;
     let distance = cloud.minimum_distance();
-    require(distance > 0.0 && distance <= 0.75, "cloud.minimum_distance")
+    require((SMALLEST_DISTANCE..=0.75).contains(&distance), "cloud.minimum_distance")
 }
 
 impl Arrangement {

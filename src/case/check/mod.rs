@@ -9,14 +9,17 @@ mod moving;
 mod sides;
 
 use super::fault::Fault;
-use super::{Case, Problem};
+use super::{Case, Guard, Problem};
 
 pub use effects::LONGEST_FORWARD;
 pub(super) use expectations::check_profiles;
 pub use layout::{LARGEST_CLOUD, LARGEST_RADIUS, SMALLEST_RADIUS, WIDEST_LADDER};
 
 /// Most steps of one run: more would take years.
-const MOST_STEPS: f64 = 1e9;
+pub const MOST_STEPS: f64 = 1e9;
+
+/// Most times that a run halves its step: a millionth of it is left then.
+const MOST_RETRIES: u32 = 20;
 
 /// The first thing wrong with a decoded case. Reads no file and allocates nothing that grows with the cloud.
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
@@ -29,7 +32,11 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     exact::check(case)?;
     if case.problem() == Problem::Flow {
         check_time(case)?;
+    } else if case.guard != Guard::default() {
+        return Err(Fault::reason("guard", "belongs to a flow, and this problem has no time; leave it out"));
     }
+    require(case.guard.retries <= MOST_RETRIES, "guard.retries")?;
+    require(case.guard.energy > 1.0, "guard.energy")?;
     require(case.output.report_every >= 1, "output.report_every")?;
     expectations::check(case)
 }

@@ -4,6 +4,7 @@
 mod needed;
 mod runs;
 mod sources;
+mod trouble;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -128,7 +129,8 @@ fn moving_scenes() -> [Scene; 2] {
 
 /// The adapter that the tests run on; `None` where those that need one are skipped.
 fn candidate() -> Option<Candidate> {
-    (!needed::skipped(&[include_str!("runs.rs")])).then(|| needed::required(adapter::choose(None)))
+    (!needed::skipped(&[include_str!("runs.rs"), include_str!("trouble.rs")]))
+        .then(|| needed::required(adapter::choose(None)))
 }
 
 /// An engine as it is made.

@@ -1,6 +1,10 @@
-//! One run: steps until the end, a steady state, a request to stop, or trouble.
+//! One run: steps until the end, a steady state, a request to stop, or trouble that shorter steps do not mend.
 
+mod guard;
+mod moving;
 mod prices;
+mod row;
+mod state;
 
 use std::time::{Duration, Instant};
 
@@ -9,16 +13,18 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use crate::case::LONGEST_FORWARD;
 use crate::case::Splitting;
-use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
+use crate::case::{LONGEST_FORWARD, MOST_STEPS};
+use crate::engine::{Clock, Data, Engine, EngineError};
 use crate::known::Known;
 use crate::motion;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
-
+pub use guard::{Limit, Trouble};
 pub use prices::{Prices, prices};
+use row::Row;
+pub use state::{Progress, State};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -40,6 +46,8 @@ pub struct Diagnostics {
     pub residual: f64,
     /// Largest rate of change of a velocity since the last row, m/s^2.
     pub change: f64,
+    /// What kept the step from being longer.
+    pub limit: Limit,
 }
 
 /// Told of a run as it goes: draws the bar, writes the rows, asks it to stop.
@@ -52,6 +60,8 @@ pub trait Observer {
     fn frame(&mut self, _: &Snapshot) {}
     /// True once the run is to stop after the steps it is in.
     fn stop_requested(&self) -> bool;
+    /// The run can go on from here: at its beginning, and after each row that was reported.
+    fn keep(&mut self, _: &State) {}
 }
 
 /// Watches nothing.
@@ -72,10 +82,8 @@ pub enum Stop {
     End,
     /// The observer asked.
     Interrupted,
-    /// Points that move: the motion is no longer one of the fluid.
-    Diverged { reason: String, step: u64 },
-    /// A field turned non-finite in the steps that ended with this one.
-    NonFinite { field: NonFinite, place: DVec2, step: u64 },
+    /// Something went wrong in the steps that ended with this one, and again with every shorter step that was tried.
+    Trouble { trouble: Trouble, step: u64 },
 }
 
 /// What a run gave.
@@ -85,6 +93,9 @@ pub struct Outcome {
     pub steps: u64,
     /// The fields at the end; after trouble, at the last row of diagnostics before it.
     pub snapshot: Snapshot,
+    /// What the run could go on from: its state at the last row of diagnostics that was asked for. Empty of a problem
+    /// without time.
+    pub state: State,
     /// Solves that were handed to the direct solver.
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
@@ -109,6 +120,11 @@ pub enum SimulationError {
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
     NotFinite { field: String, point: usize, x: f64, y: f64 },
+    #[error(
+        "time.end = {end:e}: steps of at most {longest:e} s ({limit}) make more than {MOST_STEPS:e} of them; \
+         allowed: a larger cloud.spacing, a smaller effects.viscosity.kinematic, or a sooner end"
+    )]
+    TooManySteps { end: f64, longest: f64, limit: Limit },
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
@@ -120,12 +136,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
     })
 }
 
-/// Most steps of points that move between two looks at their speed.
-const MOVING_STRETCH: u32 = 10;
 /// `nu dt / l0^2` of points that move.
 const MOVING_DIFFUSION: f64 = 0.1;
-/// Longest stretch of steps between two looks at the observer.
-const STRETCH: Duration = Duration::from_millis(250);
 /// Share of the stability limit of viscosity and diffusion that a step uses.
 const STABLE_SHARE: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
@@ -137,8 +149,18 @@ pub fn simulate(
     engine: &mut dyn Engine,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SimulationError> {
-    let (limit, warnings, watch) = (f64::INFINITY, Vec::new(), Watch::new(scene));
-    Run { scene, engine, observer, limit, warnings, watch }.run()
+    Run::new(scene, engine, observer).run(None)
+}
+
+/// Goes on with a run of `scene` from a state that it was in; the rest is as in [`simulate`], and so are the numbers, to the
+/// last bit.
+pub fn resume(
+    scene: &Scene,
+    engine: &mut dyn Engine,
+    observer: &mut dyn Observer,
+    state: State,
+) -> Result<Outcome, SimulationError> {
+    Run::new(scene, engine, observer).run(Some(state))
 }
 
 struct Run<'a> {
@@ -147,19 +169,35 @@ struct Run<'a> {
     observer: &'a mut dyn Observer,
     /// Longest step that viscosity and diffusion allow, s.
     limit: f64,
+    /// m/s
+    wall_speed: f64,
+    /// Kinetic energy above which something is wrong, m^4/s^2.
+    most_energy: f64,
     warnings: Vec<String>,
-    watch: Watch,
+    moving: moving::Watch,
 }
 
-impl Run<'_> {
-    fn run(mut self) -> Result<Outcome, SimulationError> {
+impl<'a> Run<'a> {
+    pub(super) fn new(scene: &'a Scene, engine: &'a mut dyn Engine, observer: &'a mut dyn Observer) -> Self {
+        let (limit, warnings, moving) = (f64::INFINITY, Vec::new(), moving::Watch::new(scene));
+        Self { scene, engine, observer, limit, wall_speed: 0.0, most_energy: f64::MAX, warnings, moving }
+    }
+
+    fn run(mut self, resumed: Option<State>) -> Result<Outcome, SimulationError> {
         let started = Instant::now();
         let any = self.scene.clock(1.0);
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.stability_limit()?;
+        self.limit = match &resumed {
+            Some(state) => state.progress.viscous.unwrap_or(f64::INFINITY),
+            None => self.stability_limit()?,
+        };
         let ladder = self.ladder()?;
+        if self.scene.groups > 1 && resumed.is_none() {
+            let groups = self.scene.groups;
+            self.warnings.push(format!("the points fall into {groups} groups out of each other's sight"));
+        }
         let setup = started.elapsed();
         if !self.scene.plan.flows {
             return self.once(ladder, setup);
@@ -169,112 +207,69 @@ impl Run<'_> {
         let time = &self.scene.case.time;
         let begun = self.scene.initial_velocity();
         let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-        let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
-        let mut dt = self.step(fastest(&begun), 0.0)?;
-        self.begin_steps(dt)?;
-        self.first_kick(dt)?;
-        let mut good = self.snapshot(0.0)?;
-        let every = self.scene.case.output.frame_every.unwrap_or(f64::INFINITY);
-        let mut frame = every;
-        if self.scene.plan.moves() {
-            let (snapshot, moved) = self.moved(0, 0.0)?;
-            self.watch.judge(&moved);
-            self.observer.moved(&moved);
-            if every.is_finite() {
-                self.observer.frame(&snapshot);
+        self.most_energy = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
+        self.wall_speed = fastest(&begun[self.scene.sizes.interior..]);
+        let mut good = match resumed {
+            Some(state) => {
+                state.write(self.engine)?;
+                self.begin_steps(state.progress.dt)?;
+                self.warnings.clone_from(&state.progress.warnings);
+                state
             }
-        }
-        let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
-        let (mut fallbacks, mut iterations) = (0, 0);
-        let stop = loop {
-            if now >= time.end * (1.0 - 1e-12) {
-                break Stop::End;
+            None => self.begin(fastest(&begun))?,
+        };
+        let mut progress = good.progress.clone();
+        let mut taken = 0;
+        let (stop, snapshot) = loop {
+            if progress.time >= time.end * (1.0 - 1e-12) {
+                break (Stop::End, self.snapshot(progress.time)?);
             }
-            let moves = self.scene.plan.moves();
-            let asked = self.scene.case.output.report_every.min(if moves { MOVING_STRETCH } else { u32::MAX });
-            let left = steps_in(time.end.min(frame) - now, dt);
-            let (row_start, mut done) = (now, 0_u32);
-            let mut trouble = None;
-            let count = (f64::from(asked)).min(left) as u32;
-            let interrupted = loop {
-                let clock = self.scene.clock(dt);
-                let some = stretch(count - done, started.elapsed(), step);
-                let advance = match self.engine.advance(some, &clock) {
-                    // Points that move may cluster: the run ends, and what was good is kept.
-                    Err(error @ EngineError::NeighbourOverflow { .. }) if moves => break Err(error.to_string()),
-                    result => result?,
-                };
-                done += advance.steps;
-                step += u64::from(advance.steps);
-                // Not step by step: the time must not depend on how long the stretches were.
-                now = row_start + f64::from(done) * dt;
-                iterations += advance.iterations;
-                fallbacks += u64::from(advance.fallbacks);
-                if let Some(field) = advance.trouble {
-                    trouble = Some(field);
-                    break Ok(false);
+            if progress.steady_rows == STEADY_ROWS {
+                break (Stop::Steady, self.snapshot(progress.time)?);
+            }
+            let limit = self.next_step(&mut progress);
+            let row = limit.and_then(|limit| self.row(&mut progress, limit, &started, &mut taken));
+            let step = progress.step;
+            let interrupted = match row {
+                Ok(Row::Full(row, state)) => {
+                    self.observer.report(&row);
+                    good = *state;
+                    self.tell_moved();
+                    self.observer.keep(&good);
+                    self.observer.stop_requested()
                 }
-                if done >= count {
-                    break Ok(false);
+                Ok(Row::Interrupted(row)) => {
+                    self.observer.report(&row);
+                    self.tell_moved();
+                    true
                 }
-                if self.observer.stop_requested() {
-                    break Ok(true);
+                Ok(Row::Trouble(trouble)) => {
+                    if trouble.may_be_mended() && good.progress.halvings < self.scene.case.guard.retries {
+                        progress = self.go_back(&mut good, &trouble, step)?;
+                        continue;
+                    }
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
+                }
+                Err(error) if step == 0 && progress.halvings == 0 => return Err(error),
+                Err(error) => {
+                    let trouble = match error {
+                        SimulationError::Engine(error) => Trouble::Engine(error),
+                        error => Trouble::Refused(error.to_string()),
+                    };
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
                 }
             };
-            if let Some(field) = trouble {
-                let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
-                break Stop::NonFinite { field, place, step };
+            if interrupted {
+                break (Stop::Interrupted, self.snapshot(progress.time)?);
             }
-            let interrupted = match interrupted {
-                Ok(interrupted) => interrupted,
-                Err(reason) => break Stop::Diverged { reason, step },
-            };
-            let measured = self.engine.measure(now - row_start)?;
-            let solve = self.engine.solve_info();
-            let row = Diagnostics {
-                step,
-                time: now,
-                dt,
-                kinetic_energy: measured.kinetic_energy,
-                max_speed: measured.max_speed,
-                divergence: measured.divergence,
-                pressure_iterations: solve.iterations,
-                residual: solve.last_residual * dt * self.scene.clock(dt).kick / self.scene.constants.density,
-                change: measured.change,
-            };
-            if moves {
-                let (snapshot, moved) = self.moved(step, now)?;
-                if let Some(reason) = self.watch.judge(&moved) {
-                    break Stop::Diverged { reason, step };
-                }
-                good = snapshot;
-                self.observer.report(&row);
-                self.observer.moved(&moved);
-                if now >= frame * (1.0 - 1e-12) {
-                    self.observer.frame(&good);
-                    frame += every;
-                }
-            } else {
-                self.observer.report(&row);
-                good = self.snapshot(now)?;
-            }
-            if interrupted || self.observer.stop_requested() {
-                break Stop::Interrupted;
-            }
-            steady_rows = if time.steady.is_some_and(|least| row.change < least) { steady_rows + 1 } else { 0 };
-            if steady_rows == STEADY_ROWS {
-                break Stop::Steady;
-            }
-            let next = self.step(wall_speed.max(row.max_speed), now)?;
-            self.change_step(next / dt)?;
-            if next != dt {
-                self.begin_steps(next)?;
-            }
-            dt = next;
         };
         let stepping = started.elapsed();
         let warnings = self.warnings;
-        Ok(Outcome { stop, steps: step, snapshot: good, fallbacks, iterations, ladder, setup, stepping, warnings })
+        let Progress { step: steps, fallbacks, iterations, .. } = match stop {
+            Stop::Trouble { step, .. } => Progress { step, ..progress },
+            _ => progress,
+        };
+        Ok(Outcome { stop, steps, snapshot, state: good, fallbacks, iterations, ladder, setup, stepping, warnings })
     }
 
     /// A problem without time: its operations, once.
@@ -297,7 +292,8 @@ impl Run<'_> {
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
         let warnings = self.warnings;
-        Ok(Outcome { stop: Stop::End, steps: 0, snapshot, fallbacks, iterations, ladder, setup, stepping, warnings })
+        let (stop, state) = (Stop::End, State::default());
+        Ok(Outcome { stop, steps: 0, snapshot, state, fallbacks, iterations, ladder, setup, stepping, warnings })
     }
 
     /// The clock by which the tolerance of a pressure solve is relative to the root mean square of its source.
@@ -329,50 +325,44 @@ impl Run<'_> {
         Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
     }
 
-    /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.
-    fn step(&mut self, speed: f64, now: f64) -> Result<f64, SimulationError> {
+    /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`; halved so many
+    /// times, and with what keeps it from being longer.
+    fn step(&mut self, speed: f64, now: f64, halvings: u32) -> Result<(f64, Limit), SimulationError> {
         let time = &self.scene.case.time;
         let spacing = self.scene.constants.spacing;
         let forward = self.scene.plan.drift.contains(&Operation::RemapForward);
-        let longest = time.step.unwrap_or_else(|| {
-            let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
-            // Points that move fall on until the next look at their speed.
-            let falls = if self.scene.plan.moves() {
-                self.scene.constants.gravity.length() * f64::from(MOVING_STRETCH)
-            } else {
-                0.0
-            };
-            let by_motion = match moves {
-                true => {
-                    2.0 * time.courant * spacing
-                        / (speed + (speed * speed + 4.0 * falls * time.courant * spacing).sqrt())
-                }
-                false => f64::INFINITY,
-            };
-            by_motion.min(self.by_fall()).min(self.limit)
-        });
-        let until = match self.scene.case.output.frame_every {
-            Some(every) if self.scene.plan.moves() => {
-                time.end.min(every * ((now / every * (1.0 + 1e-9)).floor() + 1.0))
+        let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
+        let (longest, limit) = match time.step {
+            Some(step) => (step, Limit::Fixed),
+            None => {
+                let by_motion = if moves { time.courant * spacing / self.faster(speed) } else { f64::INFINITY };
+                let limits =
+                    [(self.limit, self.stable_by()), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
+                let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
+                limits.into_iter().fold((f64::INFINITY, Limit::End), shorter)
             }
-            _ => time.end,
         };
-        let left = until - now;
+        let longest = longest * 0.5_f64.powi(halvings as i32);
+        let limit = if halvings > 0 { Limit::Guard } else { limit };
+        let left = self.until(now) - now;
         if left <= 0.0 {
-            return Ok(longest);
+            return Ok((longest, limit));
         }
         let dt = left / steps_in(left, longest);
+        // Nor a step that is no number, or none.
+        if left / dt > MOST_STEPS || dt.is_nan() || dt <= 0.0 {
+            return Err(SimulationError::TooManySteps { end: time.end, longest, limit });
+        }
         let courant = dt * speed / spacing;
         if forward && courant > LONGEST_FORWARD * (1.0 + 1e-9) {
             return Err(SimulationError::TooFastForForward { step: dt, speed, courant });
         }
-        if dt > self.limit && self.warnings.is_empty() {
+        if dt > self.limit && !self.warnings.iter().any(|warning| warning.starts_with("time.step")) {
             let limit = self.limit;
-            let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= limit;
-            let name = if diffuses { "diffusion" } else { "viscosity" };
+            let name = self.stable_by();
             self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
-        Ok(dt)
+        Ok((dt, limit))
     }
 
     /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
@@ -446,6 +436,12 @@ impl Run<'_> {
         Ok(self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit))
     }
 
+    /// Which of the two it is.
+    fn stable_by(&self) -> Limit {
+        let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= self.limit;
+        if diffuses { Limit::Diffusion } else { Limit::Viscosity }
+    }
+
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
     /// scattered points no formula knows it. Euler's step and the midpoint rule are stable up to `dt nu |lambda| = 2`.
     fn viscous_limit(&mut self) -> Result<f64, EngineError> {
@@ -462,7 +458,12 @@ impl Run<'_> {
         let mut trial = vec![DVec2::ZERO; interior];
         trial.iter_mut().for_each(|value| *value = DVec2::new(unit(), unit()));
         let mut radius = 0.0;
-        let clock = Clock { dt: 1.0, kick: 1.0, second_kick: 1.0 };
+        // In the time that diffusion takes over a spacing the operator's numbers are near 1, whatever the units.
+        let unit = self.scene.constants.spacing.powi(2) / self.scene.constants.viscosity;
+        if !unit.is_finite() {
+            return Ok(f64::INFINITY);
+        }
+        let clock = Clock { dt: unit, kick: unit, second_kick: 1.0 };
         for _ in 0..POWER_ITERATIONS {
             let norm = trial.iter().map(|value| value.length_squared()).sum::<f64>().sqrt();
             trial.iter_mut().for_each(|value| *value /= norm);
@@ -475,7 +476,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(STABLE_SHARE * 2.0 / radius)
+        Ok(STABLE_SHARE * 2.0 / radius * unit)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
@@ -495,66 +496,53 @@ impl Run<'_> {
         Ok(tally)
     }
 
-    /// The state of points that move, and what is measured of it.
-    fn moved(&mut self, step: u64, time: f64) -> Result<(Snapshot, motion::Row), EngineError> {
-        let snapshot = self.snapshot(time)?;
-        let pressured = self.scene.sizes.pressured;
-        let mut index = |buffer: Buffer| match self.engine.read(buffer) {
-            Ok(Data::Index(values)) => Ok(values[..snapshot.position.len()].to_vec()),
-            Ok(Data::Real(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
-            Err(error) => Err(error),
-        };
-        let (surface, rung) = (index(Buffer::Surface)?, index(Buffer::Rung(Points::Standing))?);
-        let mut places = snapshot.position.clone();
-        places.extend_from_slice(&self.scene.cloud.position[places.len()..pressured]);
-        let pressure = match self.engine.read(Buffer::Pressure)? {
-            Data::Real(values) => values[..pressured].to_vec(),
-            Data::Index(_) => Vec::new(),
-        };
-        let state = motion::State {
-            position: &snapshot.position,
-            velocity: &snapshot.velocity,
-            pressure: &pressure,
-            pressured: &places,
-            surface: &surface,
-            rung: &rung,
-        };
-        let row = motion::measure(self.scene, &state, step, time, &mut self.watch.area);
-        Ok((snapshot, row))
-    }
-
     /// The fields as they are reported: the divergence-free velocity, the pressure relative to its mean.
     fn snapshot(&mut self, time: f64) -> Result<Snapshot, EngineError> {
-        // Of points that move the fluid's alone: walls of points stand where they stood.
-        let moves = self.scene.plan.moves();
-        let points = if moves { self.scene.sizes.interior } else { self.scene.sizes.points };
-        let mut velocity = vec![DVec2::ZERO; points];
-        if self.scene.plan.flows
-            && let Data::Real(values) = self.engine.read(Buffer::Projected)?
-        {
-            velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
-        }
-        let mut pressure = vec![0.0; points];
-        if self.scene.plan.form.is_some()
-            && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
-        {
-            let singular = self.scene.constants.singular;
-            let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
-            pressure = values[..points].iter().map(|p| p - mean).collect();
-        }
-        let mut carried = Vec::new();
-        for &field in &self.scene.plan.carried {
-            if let Data::Real(mut values) = self.engine.read(Buffer::Carried(field))? {
-                values.truncate(points);
-                carried.push((self.scene.case.field_name(field), values));
-            }
-        }
-        let mut position = self.scene.cloud.position.clone();
-        if moves && let Data::Real(values) = self.engine.read(Buffer::Position(Points::Standing))? {
-            position = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
-        }
-        Ok(Snapshot { time, position, velocity, pressure, carried, derivatives: None })
+        let Self { scene, engine, .. } = self;
+        snapshot(scene, time, &mut |buffer| engine.read(buffer))
     }
+
+    /// The same of a state, whatever has become of the engine since.
+    fn snapshot_of(&self, state: &State) -> Result<Snapshot, EngineError> {
+        let of = |buffer| state.array(buffer).cloned().ok_or(EngineError::Absent(buffer));
+        snapshot(self.scene, state.progress.time, &mut |buffer| of(buffer))
+    }
+}
+
+fn snapshot(
+    scene: &Scene,
+    time: f64,
+    read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>,
+) -> Result<Snapshot, EngineError> {
+    // Of points that move the fluid's alone: walls of points stand where they stood.
+    let moves = scene.plan.moves();
+    let points = if moves { scene.sizes.interior } else { scene.sizes.points };
+    let mut velocity = vec![DVec2::ZERO; points];
+    if scene.plan.flows
+        && let Data::Real(values) = read(Buffer::Projected)?
+    {
+        velocity = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
+    }
+    let mut pressure = vec![0.0; points];
+    if scene.plan.form.is_some()
+        && let Data::Real(values) = read(Buffer::Pressure)?
+    {
+        let singular = scene.constants.singular;
+        let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
+        pressure = values[..points].iter().map(|p| p - mean).collect();
+    }
+    let mut carried = Vec::new();
+    for &field in &scene.plan.carried {
+        if let Data::Real(mut values) = read(Buffer::Carried(field))? {
+            values.truncate(points);
+            carried.push((scene.case.field_name(field), values));
+        }
+    }
+    let mut position = scene.cloud.position.clone();
+    if moves && let Data::Real(values) = read(Buffer::Position(Points::Standing))? {
+        position = values[..2 * points].chunks_exact(2).map(DVec2::from_slice).collect();
+    }
+    Ok(Snapshot { time, position, velocity, pressure, carried, derivatives: None })
 }
 
 /// Steps of at most `longest` that fill `left`, both in s: one rounding unit too many does not make one more.
@@ -566,47 +554,3 @@ fn steps_in(left: f64, longest: f64) -> f64 {
 const SAME_STEP: f64 = 1e-9;
 /// Rows in a row that must be steady.
 const STEADY_ROWS: u32 = 2;
-
-/// Steps to take before the observer is asked again: one to learn the pace, then as many as fit into [`STRETCH`].
-fn stretch(left: u32, elapsed: Duration, steps: u64) -> u32 {
-    if steps == 0 {
-        return 1;
-    }
-    let pace = elapsed.as_secs_f64() / steps as f64;
-    (STRETCH.as_secs_f64() / pace.max(1e-9)).clamp(1.0, f64::from(left)) as u32
-}
-
-/// Watches points that move for a motion that is no longer one of the fluid.
-struct Watch {
-    /// Area that the fluid covered at the start, m^2; 0 before.
-    area: f64,
-    /// Energy at the start above that of all fluid on the floor, m^4/s^2.
-    start: Option<f64>,
-    /// Potential energy of all fluid on the floor, m^4/s^2.
-    floor: f64,
-}
-
-/// Part by which the energy of a motion may exceed that at its start.
-const ENERGY_GROWTH: f64 = 0.05;
-/// Distance below which two points are one, in spacings.
-const CLUMPED: f64 = 0.01;
-
-impl Watch {
-    fn new(scene: &Scene) -> Self {
-        let (gravity, size) = (scene.constants.gravity, scene.constants.size);
-        let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
-        let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
-        Self { area: 0.0, start: None, floor }
-    }
-
-    /// What is wrong, if something is.
-    fn judge(&mut self, row: &motion::Row) -> Option<String> {
-        let energy = row.kinetic_energy + row.potential_energy - self.floor;
-        let start = *self.start.get_or_insert(energy);
-        if row.nearest[0] < CLUMPED {
-            return Some(format!("two points are {:.1e} spacings apart", row.nearest[0]));
-        }
-        (energy > (1.0 + ENERGY_GROWTH) * start)
-            .then(|| format!("the energy has grown to {:.2} times that at the start", energy / start))
-    }
-}

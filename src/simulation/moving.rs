@@ -1,0 +1,125 @@
+//! Points that move: what is measured of them on the way, what is watched, and how long their steps may be.
+
+use super::Run;
+use crate::engine::{Data, EngineError};
+use crate::motion;
+use crate::scene::Scene;
+use crate::snapshot::Snapshot;
+use crate::step::{Buffer, Points};
+
+use glam::DVec2;
+
+/// Most steps of points that move between two looks at their speed.
+pub(super) const STRETCH: u32 = 10;
+/// Part by which the energy of a motion may exceed that at its start.
+const ENERGY_GROWTH: f64 = 0.05;
+/// Distance below which two points are one, in spacings.
+const CLUMPED: f64 = 0.01;
+
+/// Watches points that move for a motion that is no longer one of the fluid.
+pub(super) struct Watch {
+    /// Area that the fluid covered at the start, m^2; 0 before.
+    area: f64,
+    /// Energy at the start above that of all fluid on the floor, m^4/s^2.
+    start: Option<f64>,
+    /// Potential energy of all fluid on the floor, m^4/s^2.
+    floor: f64,
+    /// Frames that have been kept.
+    frames: u32,
+    /// What is to be told with the row.
+    row: Option<(Snapshot, motion::Row)>,
+}
+
+impl Watch {
+    pub fn new(scene: &Scene) -> Self {
+        let (gravity, size) = (scene.constants.gravity, scene.constants.size);
+        let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
+        let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
+        Self { area: 0.0, start: None, floor, frames: 0, row: None }
+    }
+
+    /// What is wrong, if something is.
+    fn judge(&mut self, row: &motion::Row) -> Option<String> {
+        let energy = row.kinetic_energy + row.potential_energy - self.floor;
+        let start = *self.start.get_or_insert(energy);
+        if row.nearest[0] < CLUMPED {
+            return Some(format!("two points are {:.1e} spacings apart", row.nearest[0]));
+        }
+        (energy > (1.0 + ENERGY_GROWTH) * start)
+            .then(|| format!("the energy has grown to {:.2} times that at the start", energy / start))
+    }
+}
+
+impl Run<'_> {
+    /// The speed that points are moved with by the time that it is looked at again, m/s, at `time.courant` spacings a step: they
+    /// fall on until then.
+    pub(super) fn faster(&self, speed: f64) -> f64 {
+        if !self.scene.plan.moves() {
+            return speed;
+        }
+        let falls = self.scene.constants.gravity.length() * f64::from(STRETCH);
+        let way = self.scene.case.time.courant * self.scene.constants.spacing;
+        0.5 * (speed + (speed * speed + 4.0 * falls * way).sqrt())
+    }
+
+    /// The time at which the steps have to arrive, s: the end, or the next frame.
+    pub(super) fn until(&self, now: f64) -> f64 {
+        let end = self.scene.case.time.end;
+        match self.scene.case.output.frame_every {
+            Some(every) if self.scene.plan.moves() => end.min(every * ((now / every * (1.0 + 1e-9)).floor() + 1.0)),
+            _ => end,
+        }
+    }
+
+    /// Measures points that move, to be told with the row; what is wrong with their motion, if something is.
+    pub(super) fn look_at_points(&mut self, step: u64, time: f64) -> Result<Option<String>, EngineError> {
+        if !self.scene.plan.moves() {
+            return Ok(None);
+        }
+        let (snapshot, row) = self.moved(step, time)?;
+        let wrong = self.moving.judge(&row);
+        self.moving.row = wrong.is_none().then_some((snapshot, row));
+        Ok(wrong)
+    }
+
+    /// Tells the observer of the last look.
+    pub(super) fn tell_moved(&mut self) {
+        let Some((snapshot, row)) = self.moving.row.take() else { return };
+        self.observer.moved(&row);
+        let every = self.scene.case.output.frame_every.unwrap_or(f64::INFINITY);
+        if snapshot.time == 0.0 || snapshot.time >= f64::from(self.moving.frames) * every * (1.0 - 1e-9) {
+            if every.is_finite() {
+                self.observer.frame(&snapshot);
+            }
+            self.moving.frames += 1;
+        }
+    }
+
+    /// The state of points that move, and what is measured of it.
+    fn moved(&mut self, step: u64, time: f64) -> Result<(Snapshot, motion::Row), EngineError> {
+        let snapshot = self.snapshot(time)?;
+        let pressured = self.scene.sizes.pressured;
+        let mut index = |buffer: Buffer| match self.engine.read(buffer) {
+            Ok(Data::Index(values)) => Ok(values[..snapshot.position.len()].to_vec()),
+            Ok(Data::Real(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
+            Err(error) => Err(error),
+        };
+        let (surface, rung) = (index(Buffer::Surface)?, index(Buffer::Rung(Points::Standing))?);
+        let mut places = snapshot.position.clone();
+        places.extend_from_slice(&self.scene.cloud.position[places.len()..pressured]);
+        let pressure = match self.engine.read(Buffer::Pressure)? {
+            Data::Real(values) => values[..pressured].to_vec(),
+            Data::Index(_) => Vec::new(),
+        };
+        let state = motion::State {
+            position: &snapshot.position,
+            velocity: &snapshot.velocity,
+            pressure: &pressure,
+            pressured: &places,
+            surface: &surface,
+            rung: &rung,
+        };
+        let row = motion::measure(self.scene, &state, step, time, &mut self.moving.area);
+        Ok((snapshot, row))
+    }
+}

@@ -1,0 +1,142 @@
+//! The steps from one row of diagnostics to the next.
+
+use std::time::{Duration, Instant};
+
+use super::{Diagnostics, Limit, Progress, Run, SimulationError, State, Trouble, moving, steps_in};
+use crate::engine::NonFinite;
+
+/// Steps between two looks at the kinetic energy, where rows of diagnostics are further apart.
+const WATCH_EVERY: u32 = 50;
+/// Longest stretch of steps between two looks at the observer.
+const STRETCH: Duration = Duration::from_millis(250);
+
+/// How the steps of one row ended.
+pub(super) enum Row {
+    /// All of them done: the figures, and the state to go on from.
+    Full(Diagnostics, Box<State>),
+    Interrupted(Diagnostics),
+    Trouble(Trouble),
+}
+
+impl Run<'_> {
+    /// The first half kick, and the state after it.
+    pub(super) fn begin(&mut self, speed: f64) -> Result<State, SimulationError> {
+        let (dt, _) = self.step(speed, 0.0, 0)?;
+        self.begin_steps(dt)?;
+        self.first_kick(dt)?;
+        let viscous = Some(self.limit).filter(|limit| limit.is_finite());
+        let warnings = self.warnings.clone();
+        let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);
+        let progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
+        let good = State::read(self.scene, self.engine, &progress)?;
+        self.look_at_points(0, 0.0)?;
+        self.tell_moved();
+        self.observer.keep(&good);
+        Ok(good)
+    }
+
+    /// Chooses the length of the steps of the row to come.
+    pub(super) fn next_step(&mut self, progress: &mut Progress) -> Result<Limit, SimulationError> {
+        let (next, limit) = self.step(progress.speed, progress.time, progress.halvings)?;
+        self.change_step(next / progress.dt)?;
+        if next != progress.dt {
+            self.begin_steps(next)?;
+        }
+        progress.dt = next;
+        Ok(limit)
+    }
+
+    /// The steps until the next row of diagnostics, and that row. `taken` counts the steps since `started`.
+    pub(super) fn row(
+        &mut self,
+        progress: &mut Progress,
+        limit: Limit,
+        started: &Instant,
+        taken: &mut u64,
+    ) -> Result<Row, SimulationError> {
+        let dt = progress.dt;
+        let longest = if self.scene.plan.moves() { moving::STRETCH } else { u32::MAX };
+        let asked = self.scene.case.output.report_every.min(longest);
+        let left = steps_in(self.until(progress.time) - progress.time, dt);
+        let (row_start, mut done) = (progress.time, 0_u32);
+        let count = (f64::from(asked)).min(left) as u32;
+        let clock = self.scene.clock(dt);
+        let interrupted = loop {
+            let some = stretch(count - done, started.elapsed(), *taken).min(WATCH_EVERY - done % WATCH_EVERY);
+            let advance = match self.engine.advance(some, &clock) {
+                Ok(advance) => advance,
+                Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
+            };
+            done += advance.steps;
+            *taken += u64::from(advance.steps);
+            progress.step += u64::from(advance.steps);
+            // Not step by step: the time must not depend on how long the stretches were.
+            progress.time = row_start + f64::from(done) * dt;
+            progress.iterations += advance.iterations;
+            progress.fallbacks += u64::from(advance.fallbacks);
+            if let Some(field) = advance.trouble {
+                return Ok(Row::Trouble(self.lost(field)));
+            }
+            if done >= count {
+                break false;
+            }
+            if done % WATCH_EVERY == 0
+                && let Some(trouble) = self.watch_energy()?
+            {
+                return Ok(Row::Trouble(trouble));
+            }
+            if self.observer.stop_requested() {
+                break true;
+            }
+        };
+        let measured = match self.engine.measure(progress.time - row_start) {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
+        };
+        let solve = self.engine.solve_info();
+        let row = Diagnostics {
+            step: progress.step,
+            time: progress.time,
+            dt,
+            kinetic_energy: measured.kinetic_energy,
+            max_speed: measured.max_speed,
+            divergence: measured.divergence,
+            pressure_iterations: solve.iterations,
+            residual: solve.last_residual * dt * clock.kick / self.scene.constants.density,
+            change: measured.change,
+            limit,
+        };
+        if let Some(trouble) = self.watch(&row)? {
+            return Ok(Row::Trouble(trouble));
+        }
+        if let Some(reason) = self.look_at_points(progress.step, progress.time)? {
+            return Ok(Row::Trouble(Trouble::Diverged(reason)));
+        }
+        if interrupted {
+            return Ok(Row::Interrupted(row));
+        }
+        progress.speed = self.wall_speed.max(row.max_speed);
+        let steady = self.scene.case.time.steady.is_some_and(|least| row.change < least);
+        progress.steady_rows = if steady { progress.steady_rows + 1 } else { 0 };
+        progress.warnings.clone_from(&self.warnings);
+        let state = State::read(self.scene, self.engine, progress)?;
+        Ok(match state.non_finite(self.scene) {
+            Some(field) => Row::Trouble(self.lost(field)),
+            None => Row::Full(row, Box::new(state)),
+        })
+    }
+
+    fn lost(&self, field: NonFinite) -> Trouble {
+        let place = self.scene.cloud.position[field.point.min(self.scene.cloud.len() - 1)];
+        Trouble::NonFinite { field, place }
+    }
+}
+
+/// Steps to take before the observer is asked again: one to learn the pace, then as many as fit into [`STRETCH`].
+fn stretch(left: u32, elapsed: Duration, steps: u64) -> u32 {
+    if steps == 0 {
+        return 1;
+    }
+    let pace = elapsed.as_secs_f64() / steps as f64;
+    (STRETCH.as_secs_f64() / pace.max(1e-9)).clamp(1.0, f64::from(left)) as u32
+}

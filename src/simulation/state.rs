@@ -1,0 +1,82 @@
+//! What a run goes on from as if it had not been away: its place in time, and the arrays that a step reads before it
+//! writes them (`Plan::state`).
+
+use serde::{Deserialize, Serialize};
+
+use crate::engine::{Data, Engine, EngineError, NonFinite};
+use crate::scene::Scene;
+use crate::step::Buffer;
+
+/// Where a run stands, after a row of diagnostics.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Progress {
+    pub step: u64,
+    /// s
+    pub time: f64,
+    /// The last step, s.
+    pub dt: f64,
+    /// Fastest fluid, m/s: the next step is chosen by it.
+    pub speed: f64,
+    /// Longest step that viscosity and diffusion allow, s; none without.
+    pub viscous: Option<f64>,
+    /// Rows in a row that were steady.
+    pub steady_rows: u32,
+    /// Times that the run went back and on with half the step.
+    pub halvings: u32,
+    /// Solves that were handed to the direct solver.
+    pub fallbacks: u64,
+    /// Pressure iterations of all steps.
+    pub iterations: u64,
+    pub warnings: Vec<String>,
+}
+
+impl Progress {
+    /// What no run writes is refused.
+    pub fn check(&self) -> Result<(), &'static str> {
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        match self {
+            _ if !(self.time.is_finite() && self.time >= 0.0) => Err("its time is none"),
+            _ if !positive(self.dt) => Err("its time step is none"),
+            _ if !(self.speed.is_finite() && self.speed >= 0.0) => Err("its speed is none"),
+            _ if !self.viscous.is_none_or(positive) => Err("its viscous limit is none"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A run between two steps.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct State {
+    pub progress: Progress,
+    /// In the order of `Plan::state`, padding and all.
+    pub arrays: Vec<(Buffer, Data)>,
+}
+
+impl State {
+    /// Reads the arrays from an engine.
+    pub fn read(scene: &Scene, engine: &mut dyn Engine, progress: &Progress) -> Result<Self, EngineError> {
+        let read = |buffer| engine.read(buffer).map(|data| (buffer, data));
+        let arrays = scene.plan.state().into_iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Self { progress: progress.clone(), arrays })
+    }
+
+    /// Writes the arrays to an engine, whose setup is done.
+    pub fn write(&self, engine: &mut dyn Engine) -> Result<(), EngineError> {
+        self.arrays.iter().try_for_each(|(buffer, data)| engine.write(*buffer, data))
+    }
+
+    pub fn array(&self, buffer: Buffer) -> Option<&Data> {
+        self.arrays.iter().find(|(known, _)| *known == buffer).map(|(_, data)| data)
+    }
+
+    /// The first entry that is no finite number.
+    pub fn non_finite(&self, scene: &Scene) -> Option<NonFinite> {
+        self.arrays.iter().find_map(|(buffer, data)| {
+            let Data::Real(values) = data else { return None };
+            let entry = values.iter().position(|value| !value.is_finite())?;
+            let width = (values.len() / scene.padded()).max(1);
+            Some(NonFinite { buffer: *buffer, point: (entry / width).min(scene.sizes.points - 1) })
+        })
+    }
+}

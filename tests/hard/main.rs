@@ -1,0 +1,31 @@
+//! What may not go wrong: runs that are killed, files of any content, scenes at the edge of what the method can do.
+//!
+//! Quick parts of each run with the other tests. The whole of them, some minutes:
+//! `cargo test --release --test hard -- --ignored --nocapture`.
+
+#[path = "../support/cases.rs"]
+mod cases;
+#[path = "../support/hostile.rs"]
+mod hostile;
+#[path = "../support/random.rs"]
+mod random;
+#[path = "../support/spoiled.rs"]
+mod spoiled;
+
+mod checkpoints;
+mod files;
+mod flow;
+mod folders;
+mod guards;
+mod kills;
+mod resuming;
+mod scenes;
+mod soak;
+mod table;
+mod table_of_input;
+mod table_of_points;
+mod table_of_pressure;
+mod table_of_time;
+
+/// Of the project.
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
