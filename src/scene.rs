@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
-use crate::cloud::voronoi::Cells;
+use crate::cloud::voronoi::{Boundary, Cells};
 use crate::cloud::{Cloud, CloudError, grid, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
@@ -200,13 +200,19 @@ impl Scene {
             let values: Vec<f64> = cloud.position.iter().map(|&place| known.value(place)).collect();
             return Some((Buffer::Field, self.scalars(&values, 0.0)));
         }
-        // No slope across walls: nothing stands in their rows.
+        // No slope across the sides: nothing stands in their rows.
         let source = |point: usize| match self.cells {
             Some(_) => -volume[point] * known.laplacian(cloud.position[point]),
             None if point < cloud.interior => known.laplacian(cloud.position[point]),
             None => 0.0,
         };
-        let source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        let mut source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        // Outlines stand at a slope.
+        for piece in self.cells.iter().flat_map(|cells| &cells.walls) {
+            if matches!(piece.of, Boundary::Obstacle(_)) {
+                source[piece.point] += known.gradient(piece.middle).dot(piece.area);
+            }
+        }
         Some((Buffer::Source, self.scalars(&source, 0.0)))
     }
 

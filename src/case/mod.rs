@@ -11,12 +11,14 @@ pub(crate) mod error;
 pub(crate) mod fault;
 pub(crate) mod keys;
 pub(crate) mod load;
+mod obstacle;
 mod reference;
 pub(crate) mod text;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
+pub use obstacle::{Circle, Obstacle, Refine, SIDES};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
 
@@ -37,6 +39,9 @@ pub struct Case {
     pub fluid: Fluid,
     #[serde(default)]
     pub boundaries: Boundaries,
+    /// Bodies in the fluid.
+    #[serde(default)]
+    pub obstacles: Vec<Obstacle>,
     #[serde(default)]
     pub method: Method,
     /// The physics of the scene: an effect whose table is absent adds no operation and no buffer.
@@ -104,8 +109,11 @@ pub struct Cloud {
     pub jitter: Option<f64>,
     /// `random` alone: least distance of two points, in spacings, up to 0.75; [`DEFAULT_MINIMUM_DISTANCE`] where absent.
     pub minimum_distance: Option<f64>,
-    /// `jittered` and `random`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
+    /// All but `regular`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
     pub seed: Option<u64>,
+    /// `relaxed` alone: where the points lie closer.
+    #[serde(default)]
+    pub refine: Vec<Refine>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -117,6 +125,8 @@ pub enum Arrangement {
     Jittered,
     /// Random points with a minimum distance and the lattice's mean density.
     Random,
+    /// Random points moved apart until they lie evenly; the arrangement whose spacing may vary.
+    Relaxed,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

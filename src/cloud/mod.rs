@@ -1,16 +1,26 @@
-//! Where the points are: a rectangle filled with points, on its walls and inside.
+//! Where the points are: a rectangle filled with points, on its walls, on the outlines of obstacles in it, and between.
 
 mod arrangement;
+mod error;
 pub mod flux;
 pub mod grid;
+mod outline;
 mod period;
+mod relaxation;
+mod shape;
+mod sizing;
 pub mod voronoi;
 mod wall;
 
 use glam::DVec2;
 
 use crate::case;
+use arrangement::Room;
+pub use error::CloudError;
+pub use outline::Outline;
 pub use period::{inside, shortest};
+pub use shape::Shape;
+pub use sizing::Sizing;
 pub use wall::Side;
 
 /// The points of a scene at their initial places, interior points first, boundary points last.
@@ -24,28 +34,18 @@ pub struct Cloud {
     pub interior: usize,
     /// Outward unit normals of the boundary points, `position[interior..]`; at a corner, of the mean of its two sides.
     pub normal: Vec<DVec2>,
-    /// The sides of the rectangle that each boundary point lies on: one, or two at a corner.
+    /// The sides of the rectangle that each boundary point lies on: one, two at a corner, none on an outline.
     pub sides: Vec<Vec<Side>>,
-    /// Mean distance of neighbouring points, `l0`, m.
+    /// The outlines of obstacles; their points follow those on the sides.
+    pub outlines: Vec<Outline>,
+    /// Mean distance of neighbouring points, `l0`, m; the largest where it varies.
     pub spacing: f64,
+    /// The same around every point, m; `None` where it is `spacing` everywhere.
+    pub local: Option<Vec<f64>>,
     /// Width and height of the rectangle, m.
     pub size: DVec2,
     /// Lengths after which it repeats along x and y, m: its own, or 0 along an axis that ends at walls.
     pub period: DVec2,
-}
-
-/// Why a cloud could not be laid out.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CloudError {
-    #[error(
-        "cloud.minimum_distance = {minimum_distance}: only {placed} of {wanted} random points fit; allowed: about 0.7 or less"
-    )]
-    Jammed { minimum_distance: f64, placed: usize, wanted: usize },
-    #[error(
-        "points {first} and {second} coincide at ({x}, {y}) m: no derivative exists between them; \
-         allowed: any two points at least {least:e} m apart"
-    )]
-    Coincident { first: usize, second: usize, x: f64, y: f64, least: f64 },
 }
 
 impl Cloud {
@@ -55,15 +55,80 @@ impl Cloud {
         let cells = wall::cells(size, case.cloud.spacing);
         let period = case.domain.period();
         let lattice = wall::Lattice { size, cells, periodic: case.domain.periodic.each() };
-        let (boundary, sides) = wall::points(&lattice);
-        let mut position = arrangement::interior(&case.cloud, &lattice, &boundary)?;
-        arrangement::sort_by_cell(&mut position, 2.0 * case.cloud.spacing);
-        let interior = position.len();
+        let sizing = Sizing::of(case);
+        let (mut boundary, mut sides) = match sizing.is_even() {
+            true => wall::points(&lattice),
+            false => wall::graded_points(&sizing, lattice.periodic),
+        };
+        let mut normal: Vec<DVec2> =
+            sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize()).collect();
+        let mut outlines = outline::place(case, &sizing, &mut boundary, &mut normal)?;
+        sides.resize(boundary.len(), Vec::new());
+        let mut cloud = Self {
+            interior: 0,
+            normal,
+            position: vec![],
+            sides,
+            outlines: outlines.clone(),
+            spacing: case.cloud.spacing,
+            local: None,
+            size,
+            period,
+        };
+        let relaxed = case.cloud.arrangement == case::Arrangement::Relaxed;
+        let free = |place: DVec2| {
+            let room = relaxation::CLEARANCE * sizing.at(place);
+            if relaxed { cloud.is_clear(place, room) } else { cloud.clearance(place) > room }
+        };
+        let room = Room { free: &free, taken: cloud.taken() };
+        let mut position = arrangement::interior(&case.cloud, &lattice, &boundary, &sizing, &room)?;
+        cloud.interior = position.len();
+        outlines.iter_mut().for_each(|outline| {
+            outline.points.start += position.len();
+            outline.points.end += position.len();
+        });
         position.extend(boundary);
-        let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
-        let cloud =
-            Self { interior, normal: normal.collect(), position, sides, spacing: case.cloud.spacing, size, period };
+        (cloud.position, cloud.outlines) = (position, outlines);
+        outline::check(&cloud, &sizing)?;
+        match relaxed {
+            true => relaxation::relax(&mut cloud, &sizing),
+            false => relaxation::relax_near_outlines(&mut cloud, &sizing),
+        }
+        arrangement::sort_by_cell(&mut cloud.position[..cloud.interior], 2.0 * case.cloud.spacing);
+        if !sizing.is_even() {
+            cloud.local = Some(cloud.position.iter().map(|&place| sizing.at(place)).collect());
+        }
         Ok(cloud)
+    }
+
+    /// Distance from a place to the nearest outline, negative inside an obstacle, m; infinite without obstacles.
+    pub fn clearance(&self, place: DVec2) -> f64 {
+        self.outlines.iter().map(|outline| outline.shape.distance(place)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// True of a place that is farther than `room`, m, from every outline and every side.
+    fn is_clear(&self, place: DVec2, room: f64) -> bool {
+        let beside = place.min(self.size - place);
+        let walls = DVec2::select(self.period.cmpgt(DVec2::ZERO), DVec2::INFINITY, beside);
+        walls.min_element() > room && self.clearance(place) > room
+    }
+
+    /// The mean distance of neighbouring points around one, m.
+    pub fn spacing_at(&self, point: usize) -> f64 {
+        self.local.as_ref().map_or(self.spacing, |local| local[point])
+    }
+
+    /// Area of the fluid, m^2.
+    pub fn area(&self) -> f64 {
+        self.size.x * self.size.y - self.outlines.iter().map(|outline| outline.shape.area()).sum::<f64>()
+    }
+
+    /// About how many interior points of a lattice the obstacles take the room of.
+    fn taken(&self) -> usize {
+        let of = |outline: &Outline| {
+            outline.shape.area() / (self.spacing * self.spacing) + 0.5 * outline.points.len() as f64
+        };
+        self.outlines.iter().map(of).sum::<f64>().round() as usize
     }
 
     /// Number of points, interior and boundary.
@@ -76,21 +141,21 @@ impl Cloud {
     }
 
     /// The volume that each point stands for where no cells are built, m^2: `l0^2` inside, half on a side, a quarter
-    /// at a corner. It sums to the area of the rectangle.
+    /// at a corner. Without obstacles it sums to the area of the rectangle.
     pub fn nominal_volume(&self) -> Vec<f64> {
         let [nx, ny] = wall::cells(self.size, self.spacing);
         let cell = self.size.x * self.size.y / (nx * ny) as f64;
-        let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len()));
+        let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len().max(1)));
         std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
     }
 
     /// The velocity that the walls prescribe at each boundary point, m/s. A corner takes what both its walls agree
-    /// on, else it rests: below a lid it belongs to the side wall.
+    /// on, else it rests: below a lid it belongs to the side wall. Obstacles rest.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
         let velocity = |side: &Side| DVec2::from_array(side.wall(boundaries).velocity);
         // A corner takes what both its walls agree on.
         let agreed = |sides: &Vec<Side>| {
-            let first = velocity(&sides[0]);
+            let first = sides.first().map_or(DVec2::ZERO, velocity);
             if sides.iter().all(|side| velocity(side) == first) { first } else { DVec2::ZERO }
         };
         self.sides.iter().map(agreed).collect()

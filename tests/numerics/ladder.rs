@@ -34,7 +34,20 @@ fn groups() -> (Cloud, [std::ops::Range<usize>; 4]) {
     });
     let position = parts.concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    (Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO }, ranges)
+    (
+        Cloud {
+            position,
+            interior,
+            normal: vec![],
+            sides: vec![],
+            outlines: vec![],
+            spacing: 1.0,
+            local: None,
+            size,
+            period: DVec2::ZERO,
+        },
+        ranges,
+    )
 }
 
 fn unbounded() -> stillpoint::case::Case {

@@ -18,6 +18,7 @@ mod ladder;
 mod least_squares;
 mod matrix;
 mod memory;
+mod obstacles;
 mod options;
 mod orders;
 mod poisson;

@@ -181,7 +181,17 @@ fn ladder(order: usize) -> Scene {
     ]
     .concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    let cloud = Cloud { position, interior, normal: vec![], sides: vec![], spacing: 1.0, size, period: DVec2::ZERO };
+    let cloud = Cloud {
+        position,
+        interior,
+        normal: vec![],
+        sides: vec![],
+        outlines: vec![],
+        spacing: 1.0,
+        local: None,
+        size,
+        period: DVec2::ZERO,
+    };
     let mut case = cavity_of(1, &["domain.width=40.0", "domain.height=40.0"]);
     case.effects.pressure = None;
     (case.method.order, case.method.radius) = (order, Some(radius));

@@ -106,10 +106,10 @@ fn check_arrangement(cloud: &Cloud) -> Result<(), Fault> {
         }
         false => Ok(()),
     };
-    use Arrangement::{Jittered, Random};
+    use Arrangement::{Jittered, Random, Relaxed};
     belongs(cloud.jitter.is_some(), &[Jittered], "cloud.jitter", "jittered")?;
     belongs(cloud.minimum_distance.is_some(), &[Random], "cloud.minimum_distance", "random")?;
-    belongs(cloud.seed.is_some(), &[Jittered, Random], "cloud.seed", "jittered or random")?;
+    belongs(cloud.seed.is_some(), &[Jittered, Random, Relaxed], "cloud.seed", "jittered, random or relaxed")?;
     require((0.0..0.5).contains(&cloud.jitter()), "cloud.jitter")?;
     let distance = cloud.minimum_distance();
     require(distance > 0.0 && distance <= 0.75, "cloud.minimum_distance")
@@ -121,6 +121,7 @@ impl Arrangement {
             Arrangement::Regular => "regular",
             Arrangement::Jittered => "jittered",
             Arrangement::Random => "random",
+            Arrangement::Relaxed => "relaxed",
         }
     }
 }

@@ -4,6 +4,7 @@ mod effects;
 mod exact;
 mod expectations;
 mod layout;
+mod obstacles;
 
 use super::fault::Fault;
 use super::{Case, Problem};
@@ -19,6 +20,7 @@ const MOST_STEPS: f64 = 1e9;
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
+    obstacles::check(case)?;
     effects::check(case)?;
     exact::check(case)?;
     if case.problem() == Problem::Flow {
