@@ -9,7 +9,7 @@ use crate::case::{Case, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineInfo};
 use crate::known::Known;
-use crate::measure::evaluate;
+use crate::measure::{Probe, evaluate};
 use crate::output::{
     self, Adapter, DiagnosticsWriter, Fallbacks, OutputError, RunFolder, Seconds, StopReason, Summary,
 };
@@ -49,7 +49,9 @@ pub fn run(
 ) -> Result<Report, RunError> {
     let prepared = Instant::now();
     // Without time there is nothing to report on the way.
-    let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics())).transpose()?;
+    let probes = Probe::of_case(&scene.case, &scene.cloud.position).map_err(SimulationError::from)?;
+    let probes = probes.into_iter().map(|probe| probe.name).collect();
+    let rows = scene.plan.flows.then(|| DiagnosticsWriter::create(&folder.diagnostics(), probes)).transpose()?;
     let mut writer = Recorder { rows, observer, failed: None };
     let outcome = simulation::simulate(scene, engine, &mut writer)?;
     if let Some(error) = writer.failed {

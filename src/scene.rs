@@ -182,8 +182,12 @@ impl Scene {
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
             data.extend(self.fluxes.iter().flat_map(|fluxes| self.flux_rows(fluxes)));
-            if let (true, Some(exact)) = (self.plan.through_flow, &self.exact) {
-                let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
+            if self.plan.through_flow {
+                let flux = cells.wall_flux(&|piece| match (&self.exact, piece.of) {
+                    (Some(exact), _) => exact.velocity(piece.middle, 0.0),
+                    (None, Boundary::Side(side)) => side.velocity(&self.case.boundaries, piece.middle, cloud.size),
+                    (None, Boundary::Obstacle(_)) => DVec2::ZERO,
+                });
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
         }

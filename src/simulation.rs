@@ -11,12 +11,13 @@ use crate::case::LONGEST_FORWARD;
 use crate::case::Splitting;
 use crate::engine::{Clock, Data, Engine, EngineError, NonFinite};
 use crate::known::Known;
+use crate::measure::{MeasureError, Probe};
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
 
 /// One row of `diagnostics.csv`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Diagnostics {
     pub step: u64,
     /// s
@@ -35,6 +36,9 @@ pub struct Diagnostics {
     pub residual: f64,
     /// Largest rate of change of a velocity since the last row, m/s^2.
     pub change: f64,
+    /// Forces, differences and fluxes, in the order of [`Probe::of_case`]; columns of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<f64>,
 }
 
 /// Told of a run as it goes: draws the bar, writes the rows, asks it to stop.
@@ -91,6 +95,8 @@ pub struct Outcome {
 pub enum SimulationError {
     #[error(transparent)]
     Engine(#[from] EngineError),
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
     #[error(
         "time.step = {step}: at {speed} m/s points move {courant:.2} spacings a step; \
          allowed with the forward remap: at most 1"
@@ -156,6 +162,7 @@ impl Run<'_> {
         let mut dt = self.step(fastest(&begun), 0.0)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
+        let probes = Probe::of_case(&self.scene.case, &self.scene.cloud.position)?;
         let (mut step, mut now, mut steady_rows) = (0_u64, 0.0, 0);
         let (mut fallbacks, mut iterations) = (0, 0);
         let stop = loop {
@@ -194,6 +201,7 @@ impl Run<'_> {
             }
             let measured = self.engine.measure(now - row_start)?;
             let solve = self.engine.solve_info();
+            let state = self.snapshot(now)?;
             let row = Diagnostics {
                 step,
                 time: now,
@@ -204,9 +212,10 @@ impl Run<'_> {
                 pressure_iterations: solve.iterations,
                 residual: solve.last_residual * dt * self.scene.clock(dt).kick / self.scene.constants.density,
                 change: measured.change,
+                probes: probes.iter().map(|probe| probe.value(&state)).collect(),
             };
             self.observer.report(&row);
-            good = self.snapshot(now)?;
+            good = state;
             if interrupted || self.observer.stop_requested() {
                 break Stop::Interrupted;
             }

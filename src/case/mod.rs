@@ -146,12 +146,26 @@ pub struct Boundaries {
     pub top: Wall,
 }
 
-/// A solid wall that moves along itself.
+impl Boundaries {
+    /// The sides by name.
+    pub fn each(&self) -> [(&'static str, &Wall); 4] {
+        [("left", &self.left), ("right", &self.right), ("bottom", &self.bottom), ("top", &self.top)]
+    }
+
+    /// Fluid comes and goes through some side.
+    pub fn let_through(&self) -> bool {
+        self.each().iter().any(|(_, wall)| wall.parabola.is_some())
+    }
+}
+
+/// A solid wall that moves along itself, or a side that fluid comes through.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct Wall {
     /// Velocity of the wall, m/s, tangent to it.
     pub velocity: [f64; 2],
+    /// In place of a wall: fluid comes in with a parabola of this largest speed, m/s; it leaves where that is negative.
+    pub parabola: Option<f64>,
 }
 
 /// How derivatives become sums over neighbours.
@@ -412,13 +426,17 @@ pub struct Expectation {
     /// `minimum`, `maximum` and `profile`: the line that is looked along.
     pub line: Option<Line>,
     pub measure: Measure,
-    /// `minimum` and `maximum`: the published value, m/s or Pa.
+    /// All but `profile` and `error`: the published value, m/s, Pa, N/m or m^2/s.
     pub value: Option<f64>,
     /// `profile`: a CSV file, `#` comments, a header, then the coordinate along the line and values. The case file
     /// gives its path from its own folder; [`Case::load`] leaves it as seen from the working directory.
     pub profile: Option<PathBuf>,
     /// `profile`: the column of values; the first after the coordinate where absent.
     pub column: Option<String>,
+    /// `force`: the name of an obstacle; `flux`: that or a side.
+    pub on: Option<String>,
+    /// `difference`: the value at the first place less that at the second, m.
+    pub between: Option<[[f64; 2]; 2]>,
     /// Largest relative error (extremes), rms error over the profile's largest magnitude (profiles), or rms error over the rms
     /// of the exact field (errors).
     pub tolerance: f64,
@@ -441,6 +459,10 @@ pub enum Component {
     Gradient,
     /// Its Laplacian, 1/m^2: `error` alone.
     Laplacian,
+    /// Along x, N/m: `force` alone.
+    X,
+    /// Along y, N/m: `force` alone.
+    Y,
 }
 
 /// `{ x = 0.5 }`, the vertical line there, or `{ y = 0.5 }`, the horizontal one; m.
@@ -460,4 +482,10 @@ pub enum Measure {
     Profile,
     /// Root mean square difference from the exact solution over all points, at the end of the run.
     Error,
+    /// Of the fluid on an obstacle, per metre of depth.
+    Force,
+    /// Between two places.
+    Difference,
+    /// Volume flux out of the fluid through a side or an outline, per metre of depth.
+    Flux,
 }

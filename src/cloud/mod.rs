@@ -17,7 +17,7 @@ use glam::DVec2;
 use crate::case;
 use arrangement::Room;
 pub use error::CloudError;
-pub use outline::Outline;
+pub use outline::{Outline, Traced, outlines};
 pub use period::{inside, shortest};
 pub use shape::Shape;
 pub use sizing::Sizing;
@@ -62,7 +62,7 @@ impl Cloud {
         };
         let mut normal: Vec<DVec2> =
             sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize()).collect();
-        let mut outlines = outline::place(case, &sizing, &mut boundary, &mut normal)?;
+        let mut outlines = outline::place(case, &mut boundary, &mut normal)?;
         sides.resize(boundary.len(), Vec::new());
         let mut cloud = Self {
             interior: 0,
@@ -152,13 +152,13 @@ impl Cloud {
     /// The velocity that the walls prescribe at each boundary point, m/s. A corner takes what both its walls agree
     /// on, else it rests: below a lid it belongs to the side wall. Obstacles rest.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
-        let velocity = |side: &Side| DVec2::from_array(side.wall(boundaries).velocity);
         // A corner takes what both its walls agree on.
-        let agreed = |sides: &Vec<Side>| {
+        let agreed = |(sides, &place): (&Vec<Side>, &DVec2)| {
+            let velocity = |side: &Side| side.velocity(boundaries, place, self.size);
             let first = sides.first().map_or(DVec2::ZERO, velocity);
             if sides.iter().all(|side| velocity(side) == first) { first } else { DVec2::ZERO }
         };
-        self.sides.iter().map(agreed).collect()
+        self.sides.iter().zip(&self.position[self.interior..]).map(agreed).collect()
     }
 }
 

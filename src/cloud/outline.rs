@@ -33,10 +33,13 @@ pub struct Outline {
     pub bulge: Vec<f64>,
 }
 
-/// Places on an outline with what belongs to each.
-struct Traced {
-    place: Vec<DVec2>,
-    middle: Vec<DVec2>,
+/// Places on an outline, anticlockwise, with what belongs to each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Traced {
+    /// m
+    pub place: Vec<DVec2>,
+    /// As in [`Outline`].
+    pub middle: Vec<DVec2>,
     bulge: Vec<f64>,
     /// Out of the fluid.
     normal: Vec<DVec2>,
@@ -105,35 +108,50 @@ pub(super) fn divided(length: f64, spacing: &dyn Fn(f64) -> f64) -> Vec<f64> {
     cuts
 }
 
-/// Traces the obstacles of a case, and puts their points and normals behind those of the sides; the ranges count from there.
-pub(super) fn place(
-    case: &Case,
-    sizing: &Sizing,
-    boundary: &mut Vec<DVec2>,
-    normal: &mut Vec<DVec2>,
-) -> Result<Vec<Outline>, CloudError> {
+/// The outlines of the obstacles of a case, in its order.
+///
+/// # Errors
+/// Obstacles that are too thin, or too near to each other or to a side.
+pub fn outlines(case: &Case) -> Result<Vec<Traced>, CloudError> {
+    let sizing = Sizing::of(case);
     let shapes: Vec<Shape> = case.obstacles.iter().map(Shape::of).collect();
     let mut outlines = Vec::new();
-    for (obstacle, shape) in case.obstacles.iter().zip(&shapes) {
+    for (number, (obstacle, shape)) in case.obstacles.iter().zip(&shapes).enumerate() {
+        let name = || obstacle.name.clone();
         let (depth, deepest) = shape.deepest();
         let least = sizing.at(deepest);
         if depth < least {
-            return Err(CloudError::Thin { name: obstacle.name.clone(), depth, least });
+            return Err(CloudError::Thin { name: name(), depth, least });
         }
-        let Traced { place, middle, bulge, normal: own } = trace(shape, sizing);
-        for &place in &place {
+        let traced = trace(shape, &sizing);
+        for &place in &traced.place {
             let walls = place.min(sizing.size() - place).min_element();
-            let others = shapes.iter().filter(|other| *other != shape).map(|other| other.distance(place));
-            if others.fold(walls, f64::min) < ROOM * sizing.at(place) {
-                return Err(CloudError::Narrow { name: obstacle.name.clone(), x: place.x, y: place.y });
+            let others = shapes.iter().enumerate().filter(|(other, _)| *other != number);
+            let clear = others.map(|(_, other)| other.distance(place)).fold(walls, f64::min);
+            if clear < ROOM * sizing.at(place) {
+                return Err(CloudError::Narrow { name: name(), x: place.x, y: place.y });
             }
         }
-        let points = boundary.len()..boundary.len() + place.len();
-        boundary.extend(place);
-        normal.extend(own);
-        outlines.push(Outline { name: obstacle.name.clone(), shape: shape.clone(), points, middle, bulge });
+        outlines.push(traced);
     }
     Ok(outlines)
+}
+
+/// Puts the points and normals of the obstacles behind those of the sides; the ranges count from there.
+pub(super) fn place(
+    case: &Case,
+    boundary: &mut Vec<DVec2>,
+    normal: &mut Vec<DVec2>,
+) -> Result<Vec<Outline>, CloudError> {
+    let mut placed = Vec::new();
+    for (obstacle, traced) in case.obstacles.iter().zip(outlines(case)?) {
+        let points = boundary.len()..boundary.len() + traced.place.len();
+        boundary.extend(traced.place);
+        normal.extend(traced.normal);
+        let (name, shape) = (obstacle.name.clone(), Shape::of(obstacle));
+        placed.push(Outline { name, shape, points, middle: traced.middle, bulge: traced.bulge });
+    }
+    Ok(placed)
 }
 
 /// Refuses an outline that another point of the boundary comes too near to: the cells of both would overlap.

@@ -106,16 +106,19 @@ impl Cells {
         range.map(|face| (self.neighbour[face] as usize, self.weight[face]))
     }
 
-    /// The volume flux out of every cell through the walls, m^2/s, where the fluid at a place on them moves with `velocity`,
-    /// m/s. The midpoint rule leaves a little over, of second order in the spacing, which is spread over the walls: as much
-    /// flows in as out.
-    pub fn wall_flux(&self, velocity: &dyn Fn(DVec2) -> DVec2) -> Vec<f64> {
+    /// The volume flux out of every cell through the walls, m^2/s, where the fluid in the middle of a piece of them moves with
+    /// `velocity`, m/s. The midpoint rule leaves a little over, of second order in the spacing, which is spread over what lets fluid through:
+    /// as much flows in as out.
+    pub fn wall_flux(&self, velocity: &dyn Fn(&WallPiece) -> DVec2) -> Vec<f64> {
         let mut flux = vec![0.0; self.volume.len()];
-        let through = |piece: &WallPiece| velocity(piece.middle).dot(piece.area);
-        let length: f64 = self.walls.iter().map(|piece| piece.area.length()).sum();
-        let excess = self.walls.iter().map(through).sum::<f64>() / length;
-        for piece in &self.walls {
-            flux[piece.point] += through(piece) - excess * piece.area.length();
+        let through = |piece: &WallPiece| velocity(piece).dot(piece.area);
+        // Over what lets something through: a wall stays tight.
+        let open: Vec<(&WallPiece, f64)> =
+            self.walls.iter().map(|piece| (piece, through(piece))).filter(|&(_, flux)| flux != 0.0).collect();
+        let length: f64 = open.iter().map(|(piece, _)| piece.area.length()).sum();
+        let excess = open.iter().map(|(_, flux)| flux).sum::<f64>() / length.max(f64::MIN_POSITIVE);
+        for (piece, through) in open {
+            flux[piece.point] += through - excess * piece.area.length();
         }
         flux
     }

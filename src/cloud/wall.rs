@@ -28,6 +28,18 @@ impl Side {
         }
     }
 
+    /// The velocity that the case prescribes at a place on this side, m/s: along it, or inward in a parabola that rests at both
+    /// ends. `size` is the rectangle's, m.
+    pub fn velocity(self, boundaries: &Boundaries, place: DVec2, size: DVec2) -> DVec2 {
+        let wall = self.wall(boundaries);
+        let share = match self {
+            Side::Left | Side::Right => place.y / size.y,
+            Side::Bottom | Side::Top => place.x / size.x,
+        };
+        let speed = wall.parabola.map_or(0.0, |largest| 4.0 * largest * share * (1.0 - share));
+        DVec2::from_array(wall.velocity) - speed * self.normal()
+    }
+
     /// What the case says of this side.
     pub fn wall(self, boundaries: &Boundaries) -> &Wall {
         match self {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
+use super::{FieldError, LineMeasure, MeasureError, Probe, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::exact::Exact;
 use crate::known::Known;
@@ -18,7 +18,8 @@ pub struct ExpectationResult {
     pub quantity: String,
     /// Coordinate of the computed extreme along the line, m; profiles and errors have none.
     pub position: Option<f64>,
-    /// The computed extreme, or the rms difference from the profile or the exact field; m/s or Pa.
+    /// The computed extreme, force, difference or flux, or the rms difference from the profile or the exact field; m/s, Pa, N/m or
+    /// m^2/s.
     pub value: Option<f64>,
     /// The published extreme, the published profile's largest magnitude, or the rms of the exact field; m/s or Pa.
     pub reference: f64,
@@ -42,7 +43,7 @@ pub fn evaluate(
     if case.expect.is_empty() {
         return Ok(Vec::new());
     }
-    let sampler = Sampler::periodic(&snapshot.position, case.cloud.spacing, case.domain.period())?;
+    let sampler = Sampler::of(case, &snapshot.position)?;
     let exact = Exact::of(case);
     // A point that is not a number fails every row, however far from the row's line.
     let finite = snapshot.velocity.iter().all(|u| u.is_finite()) && snapshot.pressure.iter().all(|p| p.is_finite());
@@ -56,7 +57,12 @@ pub fn evaluate(
                     let flow = exact.as_ref().map(|exact| FieldError::new(snapshot, exact, row.component));
                     Found::of_field(known.or(flow).ok_or_else(|| fail("there is no exact solution"))?)
                 }
-                _ => {
+                Measure::Force | Measure::Difference | Measure::Flux => {
+                    let value = Probe::of_expectation(name, row, case, &sampler)?.value(snapshot);
+                    let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
+                }
+                Measure::Minimum | Measure::Maximum | Measure::Profile => {
                     let at = row.line.ok_or_else(|| fail("`line` is missing"))?;
                     let line = LineMeasure::new(&sampler, snapshot, &case.domain, row.component, at)?;
                     Found::along_line(row, &line, profiles.get(name), &fail)?
@@ -140,6 +146,9 @@ fn quantity(row: &Expectation) -> String {
         Measure::Maximum => "maximum of",
         Measure::Profile => "profile of",
         Measure::Error => "error of",
+        Measure::Difference => "difference of",
+        Measure::Force => "force",
+        Measure::Flux => "flux of",
     };
     let component = match row.component {
         Component::U => "u",
@@ -148,7 +157,18 @@ fn quantity(row: &Expectation) -> String {
         Component::Velocity => "the velocity",
         Component::Gradient => "the gradient",
         Component::Laplacian => "the Laplacian",
+        Component::X => "along x",
+        Component::Y => "along y",
     };
+    if let Some([from, to]) = row.between {
+        return format!("{measure} {component} between {from:?} and {to:?}");
+    }
+    if let Some(on) = &row.on {
+        return match row.measure {
+            Measure::Force => format!("{measure} {component} on {on}"),
+            _ => format!("{measure} {component} out through {on}"),
+        };
+    }
     match row.line {
         Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),
         Some(Line::Y(y)) => format!("{measure} {component} along y = {y}"),
@@ -170,6 +190,8 @@ mod tests {
             value,
             profile: None,
             column: None,
+            on: None,
+            between: None,
             tolerance: 0.01,
             source: "a paper".into(),
         }

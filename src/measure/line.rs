@@ -51,7 +51,7 @@ impl<'a> LineMeasure<'a> {
             // Both at once: how fast.
             Component::Velocity => snapshot.velocity.iter().map(|u| u.length()).collect(),
             // No problem that has them has a line.
-            Component::Gradient | Component::Laplacian => Cow::Borrowed(&[]),
+            Component::Gradient | Component::Laplacian | Component::X | Component::Y => Cow::Borrowed(&[]),
         };
         if field.len() != sampler.points() {
             let name = if component == Component::P { "pressure" } else { "velocity" };
@@ -107,7 +107,7 @@ impl<'a> LineMeasure<'a> {
         match measure {
             Measure::Minimum => Some(self.minimum()),
             Measure::Maximum => Some(self.maximum()),
-            Measure::Profile | Measure::Error => None,
+            _ => None,
         }
     }
 

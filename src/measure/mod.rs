@@ -7,6 +7,7 @@ mod field;
 mod fit;
 mod images;
 mod line;
+mod probe;
 mod sampler;
 
 pub use crate::case::Profile;
@@ -17,6 +18,7 @@ pub use field::FieldError;
 pub use fit::{Degree, Fit};
 pub use images::Images;
 pub use line::{Extreme, LineMeasure};
+pub use probe::Probe;
 pub use sampler::{Sampler, Stencil};
 
 #[cfg(test)]

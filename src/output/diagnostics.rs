@@ -1,4 +1,4 @@
-//! diagnostics.csv: one row a report, on disk before the next step begins.
+//! diagnostics.csv: one row a report, on disk before the next step begins; a column for each probe behind the others.
 
 use std::fs::File;
 use std::io::Write;
@@ -15,6 +15,8 @@ const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_
 pub struct DiagnosticsWriter {
     path: PathBuf,
     file: File,
+    /// Names of the probes.
+    probes: Vec<String>,
 }
 
 impl DiagnosticsWriter {
@@ -22,10 +24,11 @@ impl DiagnosticsWriter {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn create(path: &Path) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, probes: Vec<String>) -> Result<Self, OutputError> {
         let mut file = File::create(path).map_err(OutputError::io(path))?;
-        writeln!(file, "{HEADER}").map_err(OutputError::io(path))?;
-        Ok(Self { path: path.to_owned(), file })
+        let header = [HEADER].into_iter().chain(probes.iter().map(String::as_str)).collect::<Vec<_>>().join(",");
+        writeln!(file, "{header}").map_err(OutputError::io(path))?;
+        Ok(Self { path: path.to_owned(), file, probes })
     }
 
     /// Appends one row and flushes it.
@@ -43,6 +46,7 @@ impl DiagnosticsWriter {
             pressure_iterations,
             residual,
             change,
+            probes,
         } = row;
         for (field, value) in [
             ("time", time),
@@ -55,11 +59,15 @@ impl DiagnosticsWriter {
         ] {
             finite(&format!("{field} of step {step}"), *value)?;
         }
+        for (name, value) in self.probes.iter().zip(probes) {
+            finite(&format!("{name} of step {step}"), *value)?;
+        }
         // One write a row: a reader never sees half of one.
         let line = format!(
             "{step},{time:?},{dt:?},{kinetic_energy:?},{max_speed:?},{divergence:?},{pressure_iterations},{residual:?},\
-             {change:?}\n"
+             {change:?}"
         );
+        let line = probes.iter().fold(line, |line, value| format!("{line},{value:?}")) + "\n";
         self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
     }
 }
@@ -72,15 +80,30 @@ mod tests {
     fn rows_are_on_disk_as_soon_as_they_are_appended() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("diagnostics.csv");
-        let mut writer = DiagnosticsWriter::create(&path).unwrap();
+        let mut writer = DiagnosticsWriter::create(&path, vec![]).unwrap();
         let row = Diagnostics { step: 50, time: 0.1, max_speed: 1.0, pressure_iterations: 12, ..Default::default() };
         writer.append(&row).unwrap();
-        let broken = Diagnostics { change: f64::INFINITY, ..row };
+        let broken = Diagnostics { change: f64::INFINITY, ..row.clone() };
         let error = writer.append(&broken).unwrap_err().to_string();
         assert!(error.starts_with("change of step 50 is inf"), "{error}");
         writer.append(&Diagnostics { step: 100, residual: 1e-7, ..row }).unwrap();
         let rows = "50,0.1,0.0,0.0,1.0,0.0,12,0.0,0.0\n100,0.1,0.0,0.0,1.0,0.0,12,1e-7,0.0\n";
         assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("{HEADER}\n{rows}"));
+    }
+
+    #[test]
+    fn probes_have_columns_of_their_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnostics.csv");
+        let mut writer = DiagnosticsWriter::create(&path, vec!["drag".to_owned(), "drop".to_owned()]).unwrap();
+        let row = Diagnostics { probes: vec![0.25, -2.0], ..Default::default() };
+        writer.append(&row).unwrap();
+        assert_eq!(
+            std::fs::read_to_string(&path).unwrap(),
+            format!("{HEADER},drag,drop\n0,0.0,0.0,0.0,0.0,0.0,0,0.0,0.0,0.25,-2.0\n")
+        );
+        let broken = Diagnostics { probes: vec![0.25, f64::NAN], ..row };
+        assert!(writer.append(&broken).unwrap_err().to_string().starts_with("drop of step 0 is NaN"));
     }
 
     #[test]

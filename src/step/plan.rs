@@ -134,7 +134,8 @@ impl Plan {
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
-        let through_flow = case.exact.is_some() && case.domain.periodic != Axes::Both;
+        let through_flow =
+            (case.exact.is_some() && case.domain.periodic != Axes::Both) || case.boundaries.let_through();
         let standing = Points::Standing;
         let fits_faces =
             effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);

@@ -1,6 +1,7 @@
 //! Case files, good and bad: what each mistake says, on one line, and that `--set` reaches the case.
 
 mod mistakes;
+mod obstacles;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -188,8 +189,8 @@ fn every_shipped_case_loads_and_finds_its_profiles() {
     for path in cases {
         let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let profiles: Vec<_> = case.expect.values().filter_map(|expectation| expectation.profile.as_ref()).collect();
-        // Problems without time are held to known fields, exact flows to the whole flow.
-        let published = case.problem() == Problem::Flow && case.exact.is_none();
+        // Problems without time are held to known fields, exact flows to the whole flow, obstacles to their forces.
+        let published = case.problem() == Problem::Flow && case.exact.is_none() && case.obstacles.is_empty();
         assert_eq!(published, !profiles.is_empty(), "{}", path.display());
         assert!(profiles.iter().all(|profile| profile.is_file()), "{profiles:?}");
     }

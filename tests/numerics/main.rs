@@ -14,6 +14,7 @@ mod energy;
 mod exact;
 mod fallback;
 mod flux;
+mod forces;
 mod ladder;
 mod least_squares;
 mod matrix;
