@@ -61,10 +61,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),
     ("expect.*", "a table, its name of letters, digits, _ and - alone"),
-    (
-        "expect.*.component",
-        r#""u", "v" or "p"; with measure = "error" also "velocity", "gradient" or "laplacian"; "x" or "y" of a force, "velocity" of a flux"#,
-    ),
+    ("expect.*.component", r#""u", "v" or "p"; "velocity", "gradient", "laplacian", "x" or "y" with some measures"#),
     ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
     ("expect.*.measure", r#""minimum", "maximum", "profile", "error", "force", "difference" or "flux""#),
     ("expect.*.on", r#"the name of an obstacle; with measure = "flux" also a side"#),

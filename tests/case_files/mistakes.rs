@@ -21,7 +21,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("spacing = 0.1\n", "", "bad.toml:5: cloud.spacing is missing: it must be a length above 0, m"),
     ("[fluid]\ndensity = 1.0\n", "", "bad.toml: fluid is missing: it must be a table with the key density"),
     ("kinematic = 0.01\n", "", "bad.toml:14: effects.viscosity.kinematic is missing: it must be a number above 0, m^2/s"),
-    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\" or \"p\"; with measure = \"error\" also \"velocity\""),
+    ("component = \"u\"\nline = { x = 0.5 }\nmeasure = \"minimum\"", "line = { x = 0.5 }\nmeasure = \"minimum\"", "bad.toml:25: expect.u_min.component is missing: it must be \"u\", \"v\" or \"p\"; \"velocity\", \"gradient\""),
     // Kinds of values.
     ("spacing = 0.1", "spacing = \"fine\"", "bad.toml:7: cloud.spacing = \"fine\": must be a length above 0, m"),
     ("spacing = 0.1", "spacing = nan", "bad.toml:7: cloud.spacing = NaN: must be a length above 0, m; it is not finite"),
