@@ -35,7 +35,7 @@ pub struct Scene {
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants {
-    /// `r_e`, m.
+    /// `r_e`, m; the largest where the spacing varies.
     pub radius: f64,
     pub weight: Weight,
     /// Degree of the fitted polynomial, 1 to 4.
@@ -87,14 +87,15 @@ impl Scene {
     pub fn with_cloud(case: &Case, cloud: Cloud) -> Result<Self, SceneError> {
         let plan = Plan::new(case);
         let radius = case.method.radius() * cloud.spacing;
-        let grid = Grid::new(cloud.size, cloud.period, radius);
-        let most = survey(&cloud, radius, case.method.radius(), moments::coefficients(case.method.order))?;
+        let grid = Grid::new(cloud.size, cloud.period, cell(&cloud, case.method.radius()));
+        let most = survey(&cloud, case.method.radius(), moments::coefficients(case.method.order))?;
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
         let cells = conservative.then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
-        let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
+        let fluxes =
+            cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, case.method.radius()));
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
@@ -171,7 +172,7 @@ impl Scene {
         let mut data = vec![
             (Buffer::Position(Points::Standing), position.clone()),
             (Buffer::Position(Points::Moved), position),
-            (Buffer::Support(Points::Standing), Data::Real(vec![self.constants.radius; self.padded()])),
+            (Buffer::Support(Points::Standing), self.scalars(&self.supports(), self.constants.radius)),
             (Buffer::Support(Points::Moved), Data::Real(vec![self.constants.radius; self.padded()])),
             (Buffer::Normal, self.vectors(&normal, DVec2::ZERO)),
             (Buffer::Volume, self.scalars(&volume, 1.0)),
@@ -195,6 +196,12 @@ impl Scene {
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
         data
+    }
+
+    /// Radius of each point's neighbourhood, m.
+    fn supports(&self) -> Vec<f64> {
+        let spacings = self.case.method.radius();
+        (0..self.cloud.len()).map(|point| spacings * self.cloud.spacing_at(point)).collect()
     }
 
     /// A known field, or the source that makes the pressure equation give it.
@@ -299,14 +306,25 @@ impl Scene {
     }
 }
 
-/// The most neighbours that any point has within `radius`; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<usize, SceneError> {
-    let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
-    let least = COINCIDENT * cloud.spacing;
+/// Side of a cell of the neighbour search, m: the radius, or, where that varies, the least, as long as there are not many
+/// more cells than points. A search looks at as many cells as its own radius takes.
+fn cell(cloud: &Cloud, spacings: f64) -> f64 {
+    let least = (0..cloud.len()).map(|point| cloud.spacing_at(point)).fold(cloud.spacing, f64::min);
+    match cloud.local {
+        Some(_) => (spacings * least).max((cloud.size.x * cloud.size.y / cloud.len() as f64).sqrt()),
+        None => spacings * cloud.spacing,
+    }
+}
+
+/// The most neighbours that any point has within its radius of so many spacings; refuses points that coincide or stand alone.
+fn survey(cloud: &Cloud, spacings: f64, needed: usize) -> Result<usize, SceneError> {
+    let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, cell(cloud, spacings));
     let count = |point: usize| -> Result<usize, SceneError> {
         let own = cloud.position[point];
+        let (radius, least) = (spacings * cloud.spacing_at(point), COINCIDENT * cloud.spacing_at(point));
+        let rings = (0..=grid.rings()).take_while(|&ring| ring <= 1 || grid.reach(ring - 1) < radius);
         let mut found = 0;
-        for other in (0..=1).flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
+        for other in rings.flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
             let square = shortest(cloud.position[other] - own, cloud.period).length_squared();
             found += usize::from(square < radius * radius);
             if square < least * least {

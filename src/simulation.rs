@@ -157,9 +157,8 @@ impl Run<'_> {
         let started = Instant::now();
         let time = &self.scene.case.time;
         let begun = self.scene.initial_velocity();
-        let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-        let wall_speed = fastest(&begun[self.scene.sizes.interior..]);
-        let mut dt = self.step(fastest(&begun), 0.0)?;
+        let wall_speed = self.fastest(&begun, self.scene.sizes.interior);
+        let mut dt = self.step(self.fastest(&begun, 0), 0.0)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
         let probes = Probe::of_case(&self.scene.case, &self.scene.cloud.position)?;
@@ -223,7 +222,8 @@ impl Run<'_> {
             if steady_rows == STEADY_ROWS {
                 break Stop::Steady;
             }
-            let next = self.step(wall_speed.max(row.max_speed), now)?;
+            let speed = if self.scene.cloud.local.is_some() { self.fastest(&good.velocity, 0) } else { row.max_speed };
+            let next = self.step(wall_speed.max(speed), now)?;
             self.change_step(next / dt)?;
             dt = next;
         };
@@ -281,6 +281,14 @@ impl Run<'_> {
         laplacian.truncate(points);
         let derivatives = Some(Derivatives { value, gradient, laplacian });
         Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
+    }
+
+    /// The largest speed among the points from `first` on, m/s; where the spacing varies, of all the same motion in spacings, as
+    /// if that were the largest.
+    fn fastest(&self, velocity: &[DVec2], first: usize) -> f64 {
+        let cloud = &self.scene.cloud;
+        let weighed = |point: usize| velocity[point].length() * (cloud.spacing / cloud.spacing_at(point));
+        (first..velocity.len()).map(weighed).fold(0.0, f64::max)
     }
 
     /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`.

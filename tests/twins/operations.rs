@@ -53,6 +53,7 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
     match operation {
         Operation::FindNeighbours(points) => vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points)],
         Operation::BuildCells(_)
+        | Operation::FindLocalNeighbours
         | Operation::Factorise(_)
         | Operation::AssembleLaplacian
         | Operation::AssembleGradient

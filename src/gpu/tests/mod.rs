@@ -89,6 +89,12 @@ fn periodic_scene() -> Scene {
     scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + VORTICES), &changes)
 }
 
+/// Points that lie closer under the lid.
+fn graded_scene() -> Scene {
+    let refined = "[[cloud.refine]]\nnear = \"top\"\nspacing = 0.03125\n";
+    scene_of(&(CAVITY.replace("\"jittered\"", "\"relaxed\"") + refined), &[])
+}
+
 /// The adapter that the tests run on; `None` where those that need one are skipped.
 fn candidate() -> Option<Candidate> {
     (!needed::skipped(&[include_str!("runs.rs")])).then(|| needed::required(adapter::choose(None)))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{CHANGES, Precision, forceless_scene, open_scene, periodic_scene, scene, still_scene};
+use super::{CHANGES, Precision, forceless_scene, graded_scene, open_scene, periodic_scene, scene, still_scene};
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
 use crate::gpu::prelude::prelude;
@@ -19,7 +19,7 @@ const NOT_IN_F64: [&str; 12] =
     ["exp", "exp2", "log", "log2", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow"];
 
 fn scenes() -> Vec<Scene> {
-    let others = [still_scene(), forceless_scene(), open_scene(), periodic_scene()];
+    let others = [still_scene(), forceless_scene(), open_scene(), periodic_scene(), graded_scene()];
     CHANGES.iter().map(|changes| scene(changes)).chain(others).collect()
 }
 
@@ -76,6 +76,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         scenes().iter().flat_map(|scene| scene.plan.operations().collect::<Vec<_>>()).collect();
     let both = |operation: fn(Points) -> Operation| [operation(Points::Standing), operation(Points::Moved)];
     let mut all: BTreeSet<Operation> = [
+        Operation::FindLocalNeighbours,
         Operation::AssembleLaplacian,
         Operation::AssembleGradient,
         Operation::AssembleCollocated,
