@@ -322,9 +322,8 @@ fn survey(cloud: &Cloud, spacings: f64, needed: usize) -> Result<usize, SceneErr
     let count = |point: usize| -> Result<usize, SceneError> {
         let own = cloud.position[point];
         let (radius, least) = (spacings * cloud.spacing_at(point), COINCIDENT * cloud.spacing_at(point));
-        let rings = (0..=grid.rings()).take_while(|&ring| ring <= 1 || grid.reach(ring - 1) < radius);
         let mut found = 0;
-        for other in rings.flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
+        for other in grid.within(own, radius).filter(|&other| other != point) {
             let square = shortest(cloud.position[other] - own, cloud.period).length_squared();
             found += usize::from(square < radius * radius);
             if square < least * least {

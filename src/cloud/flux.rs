@@ -115,9 +115,7 @@ impl Around {
     fn new(cloud: &Cloud, grid: &Grid, point: usize, reach: f64) -> Self {
         let own = cloud.position[point];
         let offset = |other: usize| (other as u32, shortest(cloud.position[other] - own, cloud.period));
-        let rings = (0..=grid.rings()).take_while(|&ring| ring <= 1 || grid.reach(ring - 1) < reach);
-        let near = rings.flat_map(|ring| grid.ring(own, ring)).map(offset);
-        Self { point, near: near.collect() }
+        Self { point, near: grid.within(own, reach).map(offset).collect() }
     }
 
     /// `radius` is that of the fit, m.

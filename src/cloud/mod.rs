@@ -4,6 +4,7 @@ mod arrangement;
 mod error;
 pub mod flux;
 pub mod grid;
+mod layers;
 mod outline;
 mod period;
 mod relaxation;
@@ -56,9 +57,10 @@ impl Cloud {
         let period = case.domain.period();
         let lattice = wall::Lattice { size, cells, periodic: case.domain.periodic.each() };
         let sizing = Sizing::of(case);
-        let (mut boundary, mut sides) = match sizing.is_even() {
-            true => wall::points(&lattice),
-            false => wall::graded_points(&sizing, lattice.periodic),
+        let relaxed = case.cloud.arrangement == case::Arrangement::Relaxed;
+        let (mut boundary, mut sides) = match relaxed {
+            true => wall::graded_points(&sizing, lattice.periodic),
+            false => wall::points(&lattice),
         };
         let mut normal: Vec<DVec2> =
             sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize()).collect();
@@ -75,13 +77,27 @@ impl Cloud {
             size,
             period,
         };
-        let relaxed = case.cloud.arrangement == case::Arrangement::Relaxed;
+        let layers = match relaxed {
+            true => {
+                let distance = |place: DVec2| cloud.beside(place).min(cloud.clearance(place));
+                layers::layers(&boundary, &cloud.normal, &sizing, period, &distance)
+            }
+            false => vec![],
+        };
+        let taken = grid::Grid::new(&layers, size, period, sizing.least());
         let free = |place: DVec2| {
-            let room = relaxation::CLEARANCE * sizing.at(place);
-            if relaxed { cloud.is_clear(place, room) } else { cloud.clearance(place) > room }
+            let spacing = sizing.at(place);
+            let room = relaxation::CLEARANCE * spacing;
+            let reach = relaxation::APART * spacing;
+            let mut near = taken.within(place, reach);
+            cloud.clearance(place) > room
+                && (!relaxed || cloud.beside(place) > room)
+                && !near.any(|other| shortest(layers[other] - place, period).length() < reach)
         };
         let room = Room { free: &free, taken: cloud.taken() };
         let mut position = arrangement::interior(&case.cloud, &lattice, &boundary, &sizing, &room)?;
+        let scattered = position.len();
+        position.extend(&layers);
         cloud.interior = position.len();
         outlines.iter_mut().for_each(|outline| {
             outline.points.start += position.len();
@@ -91,7 +107,7 @@ impl Cloud {
         (cloud.position, cloud.outlines) = (position, outlines);
         outline::check(&cloud, &sizing)?;
         match relaxed {
-            true => relaxation::relax(&mut cloud, &sizing),
+            true => relaxation::relax(&mut cloud, scattered, &sizing),
             false => relaxation::relax_near_outlines(&mut cloud, &sizing),
         }
         arrangement::sort_by_cell(&mut cloud.position[..cloud.interior], 2.0 * case.cloud.spacing);
@@ -106,11 +122,10 @@ impl Cloud {
         self.outlines.iter().map(|outline| outline.shape.distance(place)).fold(f64::INFINITY, f64::min)
     }
 
-    /// True of a place that is farther than `room`, m, from every outline and every side.
-    fn is_clear(&self, place: DVec2, room: f64) -> bool {
+    /// Distance from a place to the nearest side, m; infinite where the domain repeats.
+    fn beside(&self, place: DVec2) -> f64 {
         let beside = place.min(self.size - place);
-        let walls = DVec2::select(self.period.cmpgt(DVec2::ZERO), DVec2::INFINITY, beside);
-        walls.min_element() > room && self.clearance(place) > room
+        DVec2::select(self.period.cmpgt(DVec2::ZERO), DVec2::INFINITY, beside).min_element()
     }
 
     /// The mean distance of neighbouring points around one, m.

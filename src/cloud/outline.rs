@@ -165,8 +165,7 @@ pub(super) fn check(cloud: &Cloud, sizing: &Sizing) -> Result<(), CloudError> {
         for (k, &middle) in outline.middle.iter().enumerate() {
             let [own, next] = outline.ends(k);
             let half = cloud.position[own].distance(middle);
-            let rings = (0..=grid.rings()).take_while(|&ring| ring <= 1 || grid.reach(ring - 1) < half);
-            let near = rings.flat_map(|ring| grid.ring(middle, ring)).map(|other| other + cloud.interior);
+            let near = grid.within(middle, half).map(|other| other + cloud.interior);
             for other in near.filter(|&other| other != own && other != next) {
                 let place = cloud.position[other];
                 if place.distance(middle) < half * (1.0 + 1e-9) {

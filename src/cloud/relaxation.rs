@@ -21,6 +21,8 @@ const NEAR: f64 = 3.0;
 const NEAR_ITERATIONS: usize = 12;
 /// Closest that an interior point comes to an outline, in spacings: above a half, so that its cell ends before it.
 pub(super) const CLEARANCE: f64 = 0.6;
+/// Closest that a scattered point comes to a layer, in spacings, before it is relaxed.
+pub(super) const APART: f64 = 0.7;
 
 /// About one point per `h^2` of the rectangle: squares are split until they are about as large, and each takes as many points
 /// as fit, at random.
@@ -61,9 +63,9 @@ pub(super) fn scatter(
     Ok(position)
 }
 
-/// Relaxes all interior points.
-pub(super) fn relax(cloud: &mut Cloud, sizing: &Sizing) {
-    let all: Vec<usize> = (0..cloud.interior).collect();
+/// Relaxes the points that were scattered, the first so many.
+pub(super) fn relax(cloud: &mut Cloud, scattered: usize, sizing: &Sizing) {
+    let all: Vec<usize> = (0..scattered).collect();
     iterate(cloud, sizing, &all, ITERATIONS);
 }
 
@@ -85,7 +87,7 @@ fn iterate(cloud: &mut Cloud, sizing: &Sizing, points: &[usize], iterations: usi
         let moved = points.par_iter().map(|&point| {
             let own = cloud.position[point];
             let middle = voronoi::middle(cloud, point, &grid, &density);
-            let allowed = |place: DVec2| cloud.is_clear(place, CLEARANCE * sizing.at(place));
+            let allowed = |place: DVec2| cloud.beside(place).min(cloud.clearance(place)) > CLEARANCE * sizing.at(place);
             let [far, near] = [OVERSHOOT, 1.0].map(|part| own + part * (middle - own));
             if allowed(far) {
                 far

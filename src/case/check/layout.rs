@@ -27,7 +27,10 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(domain.height > 0.0, "domain.height")?;
     require(cloud.spacing > 0.0, "cloud.spacing")?;
     check_size(case)?;
-    check_whole(domain, cloud.spacing)?;
+    // Relaxed points divide each side into pieces of their own.
+    if cloud.arrangement != Arrangement::Relaxed {
+        check_whole(domain, cloud.spacing)?;
+    }
     check_arrangement(cloud)?;
     require(case.fluid.density > 0.0, "fluid.density")?;
     check_walls(case)?;
