@@ -15,6 +15,7 @@ mod exact;
 mod fallback;
 mod flux;
 mod forces;
+mod grading;
 mod ladder;
 mod least_squares;
 mod matrix;
