@@ -22,14 +22,23 @@ pub struct DirectSolver(Factor);
 
 enum Factor {
     Symmetric(Llt<usize, f64>),
-    General { lu: Box<Lu<usize, f64>>, rows: Vec<Vec<(usize, f64)>>, ones: Vec<f64> },
+    /// With points where the pressure is 0.
+    Grounded(Llt<usize, f64>),
+    General {
+        lu: Box<Lu<usize, f64>>,
+        rows: Vec<Vec<(usize, f64)>>,
+        ones: Vec<f64>,
+    },
 }
 
 impl DirectSolver {
     /// Factorises the matrix of the scene's form. `read` gives the arrays that an engine has assembled.
     pub fn new(scene: &Scene, read: &mut dyn FnMut(Buffer) -> Result<Data, EngineError>) -> Result<Self, EngineError> {
         if let Some(cells) = scene.cells() {
-            return Self::conservative(cells);
+            return match scene.constants.singular {
+                true => Self::conservative(cells),
+                false => Self::grounded(cells, &|point| scene.is_outlet(point)),
+            };
         }
         Self::collocated(collocated_rows(scene, read)?)
     }
@@ -45,6 +54,20 @@ impl DirectSolver {
         }
         let matrix = sparse(kept, &entries)?;
         matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Symmetric(factor))).map_err(failed)
+    }
+
+    /// The same where the pressure is 0 at some points.
+    fn grounded(cells: &Cells, held: &dyn Fn(usize) -> bool) -> Result<Self, EngineError> {
+        let mut entries = Vec::with_capacity(4 * cells.volume.len());
+        for point in 0..cells.volume.len() {
+            let free = !held(point);
+            let own = if free { cells.faces(point).map(|(_, weight)| weight).sum() } else { 1.0 };
+            entries.push(Triplet::new(point, point, own));
+            let lower = cells.faces(point).filter(|&(other, _)| free && other < point && !held(other));
+            entries.extend(lower.map(|(other, weight)| Triplet::new(point, other, -weight)));
+        }
+        let matrix = sparse(cells.volume.len(), &entries)?;
+        matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Grounded(factor))).map_err(failed)
     }
 
     /// A matrix whose rows sum to zero, row by row: column and value.
@@ -74,6 +97,7 @@ impl DirectSolver {
                 pressure.push(0.0);
                 pressure
             }
+            Factor::Grounded(factor) => return finite(solve(factor, &source[..factor.ncols()])),
             Factor::General { lu, rows, ones } => {
                 let mut right = source[..ones.len()].to_vec();
                 right[0] = 0.0;
@@ -85,11 +109,7 @@ impl DirectSolver {
         };
         let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
         pressure.iter_mut().for_each(|p| *p -= mean);
-        if pressure.iter().all(|p| p.is_finite()) {
-            Ok(pressure)
-        } else {
-            Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned()))
-        }
+        finite(pressure)
     }
 
     /// Root mean square of what a pressure leaves of the source, `b - A p` less its mean, as the iterative solvers measure
@@ -97,6 +117,7 @@ impl DirectSolver {
     pub fn residual(&self, scene: &Scene, source: &[f64], pressure: &[f64]) -> f64 {
         let of = |point: usize| match (&self.0, scene.cells()) {
             (Factor::General { rows, .. }, _) => source[point] - product(&rows[point], pressure),
+            (Factor::Grounded(_), _) if scene.is_outlet(point) => source[point],
             (_, Some(cells)) => {
                 let own = pressure[point];
                 source[point] - cells.faces(point).map(|(other, weight)| weight * (own - pressure[other])).sum::<f64>()
@@ -105,12 +126,19 @@ impl DirectSolver {
         };
         let mut left: Vec<f64> = (0..scene.sizes.points).map(of).collect();
         let points = left.len() as f64;
-        let mean = left.iter().sum::<f64>() / points;
+        let mean = if scene.constants.singular { left.iter().sum::<f64>() / points } else { 0.0 };
         left.iter_mut().for_each(|r| *r -= mean);
         if let Some(cells) = scene.cells() {
             left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);
         }
         (left.iter().map(|r| r * r).sum::<f64>() / points).sqrt()
+    }
+}
+
+fn finite(pressure: Vec<f64>) -> Result<Vec<f64>, EngineError> {
+    match pressure.iter().all(|p| p.is_finite()) {
+        true => Ok(pressure),
+        false => Err(EngineError::Direct("the direct solve gave no finite pressure".to_owned())),
     }
 }
 

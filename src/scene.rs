@@ -1,12 +1,15 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
+mod carried;
+mod sides;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Problem, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::{Boundary, Cells};
-use crate::cloud::{Cloud, CloudError, grid, shortest};
+use crate::cloud::{Cloud, CloudError, OpenPoint, Side, grid, open_points, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::Lattice;
 use crate::cpu::operations::moments;
@@ -26,10 +29,12 @@ pub struct Scene {
     pub constants: Constants,
     /// The flow that the case knows.
     exact: Option<Exact>,
-    /// Voronoi cells, where the plan's pressure is conservative.
+    /// Voronoi cells, where the plan has faces.
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
+    /// The points of slip sides and outlets.
+    open: Vec<OpenPoint>,
 }
 
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
@@ -54,11 +59,23 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// Where on the way back to a departure point the velocity is taken, over the step.
+    pub trace: f64,
+    /// m/s^2; 0 without gravity.
+    pub gravity: DVec2,
+    /// What a degree above the reference adds to it, `-beta g`, m/(s^2 K); 0 without buoyancy.
+    pub lift: DVec2,
+    /// K
+    pub reference_temperature: f64,
+    /// Largest stable step of the diffusion of the carried fields, s.
+    pub diffusion_limit: f64,
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
     /// Rounding units of the diagonal's product below which no pressure residual falls.
     pub floor: f64,
+    /// Whether the pressure is found but for a constant: not where fluid leaves at pressure 0.
+    pub singular: bool,
     /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
     pub shift: f64,
 }
@@ -92,21 +109,24 @@ impl Scene {
         let moves = plan.drift.contains(&Operation::MovePoints);
         let capacity = if moves { most + most / 3 + 2 } else { most.max(12) };
         let conservative = plan.form == Some(PressureForm::Conservative);
-        let cells = conservative.then(|| Cells::build(&cloud));
+        let cells = plan.has_faces().then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
         let fluxes =
             cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, case.method.radius()));
+        let opens = plan.buffers().contains(&Buffer::OpenRow);
+        let open = if opens { open_points(&cloud, &case.boundaries, case.method.radius()) } else { Vec::new() };
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
             capacity,
             face_capacity: cells.as_ref().map_or(0, Cells::most_faces),
             flux_capacity: fluxes.as_ref().map_or(0, Fluxes::most_terms),
+            open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
-        let constants = Constants {
+        let mut constants = Constants {
             radius,
             weight: case.method.weight,
             order: case.method.order,
@@ -117,22 +137,43 @@ impl Scene {
             lattice: Lattice::new(radius, cloud.spacing),
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
+            gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
+            trace: if case.velocity_changes() { 1.0 } else { 0.5 },
+            lift: DVec2::ZERO,
+            reference_temperature: 0.0,
+            diffusion_limit: carried::limit(case, cells.as_ref()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
-            shift: if conservative { 4.0 } else { -4.0 / cloud.spacing.powi(2) },
+            singular: !plan.outlets,
+            shift: match conservative {
+                true if plan.outlets => 0.0,
+                true => 4.0,
+                false => -4.0 / cloud.spacing.powi(2),
+            },
         };
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes })
+        if let Some(buoyancy) = &case.effects.buoyancy {
+            constants.lift = -buoyancy.expansion * constants.gravity;
+            constants.reference_temperature = buoyancy.reference;
+        }
+        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact: Exact::of(case), cells, fluxes, open })
     }
 
-    /// The Voronoi cells; `None` unless the pressure is conservative.
+    /// The Voronoi cells of the pressure; `None` unless its form is conservative.
     pub fn cells(&self) -> Option<&Cells> {
-        self.cells.as_ref()
+        self.cells.as_ref().filter(|_| self.plan.form == Some(PressureForm::Conservative))
     }
 
     /// The flux out of the cells; `None` unless the plan fits it.
     pub fn fluxes(&self) -> Option<&Fluxes> {
         self.fluxes.as_ref()
+    }
+
+    /// True of a point where fluid leaves at pressure 0.
+    pub fn is_outlet(&self, point: usize) -> bool {
+        let sides = point.checked_sub(self.cloud.interior).and_then(|point| self.cloud.sides.get(point));
+        let leaves = |side: &Side| side.wall(&self.case.boundaries).kind == SideKind::Outlet;
+        self.plan.outlets && sides.is_some_and(|sides| sides.iter().any(leaves))
     }
 
     /// The velocity at every point that a run begins with, m/s: the exact solution's, or rest between the walls.
@@ -145,6 +186,13 @@ impl Scene {
                 rest.chain(cloud.wall_velocity(&self.case.boundaries)).collect()
             }
         }
+    }
+
+    /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
+    /// begins with. Along an axis that has no walls nothing does.
+    pub fn balanced_gravity(&self) -> DVec2 {
+        let closed = self.constants.period.map(|length| f64::from(u8::from(length == 0.0)));
+        closed * self.constants.gravity
     }
 
     /// Lengths in time of a step of `dt` s.
@@ -183,15 +231,16 @@ impl Scene {
         if let Some(cells) = &self.cells {
             data.extend(self.faces(cells));
             data.extend(self.fluxes.iter().flat_map(|fluxes| self.flux_rows(fluxes)));
-            if self.plan.through_flow {
-                let flux = cells.wall_flux(&|piece| match (&self.exact, piece.of) {
-                    (Some(exact), _) => exact.velocity(piece.middle, 0.0),
-                    (None, Boundary::Side(side)) => side.velocity(&self.case.boundaries, piece.middle, cloud.size),
-                    (None, Boundary::Obstacle(_)) => DVec2::ZERO,
-                });
+            if let (true, Some(exact)) = (self.plan.through_flow, &self.exact) {
+                let flux = cells.wall_flux(&|piece| exact.velocity(piece.middle, 0.0));
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
+            if self.exact.is_none() {
+                data.push((Buffer::WallFlux, self.scalars(&sides::wall_flux(self, cells), 0.0)));
+            }
         }
+        data.extend(carried::initial(self, &volume));
+        data.extend(sides::rows(self, &self.open));
         data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));
@@ -238,6 +287,10 @@ impl Scene {
             (0..slots).for_each(|slot| neighbour[at(point, slot)] = own as u32);
         }
         for point in 0..self.sizes.points {
+            // The pressure is known there: no equation.
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, face)) in cells.faces(point).enumerate() {
                 neighbour[at(point, slot)] = other as u32;
                 weight[at(point, slot)] = face;
@@ -263,6 +316,9 @@ impl Scene {
             (0..slots).for_each(|slot| points[at(point, slot, slots)] = own as u32);
         }
         for (point, count) in count.iter_mut().enumerate().take(self.sizes.points) {
+            if self.is_outlet(point) {
+                continue;
+            }
             for (slot, (other, factor)) in fluxes.row(point).enumerate() {
                 points[at(point, slot, slots)] = other as u32;
                 row[at(point, slot, 2 * slots)] = factor.x;

@@ -1,5 +1,7 @@
 //! One run: steps until the end, a steady state, a request to stop, or trouble.
 
+mod prices;
+
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -15,6 +17,8 @@ use crate::measure::{MeasureError, Probe};
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
 use crate::step::{Buffer, Operation, Points, Rung, Stage};
+
+pub use prices::{Prices, prices};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -103,11 +107,11 @@ pub enum SimulationError {
     )]
     TooFastForForward { step: f64, speed: f64, courant: f64 },
     #[error("{field} of point {point} at ({x}, {y}) m is not finite: its numbers are beyond those of the precision")]
-    NotFinite { field: &'static str, point: usize, x: f64, y: f64 },
+    NotFinite { field: String, point: usize, x: f64, y: f64 },
 }
 
 /// The first value of a snapshot that is no finite number: its column and its point.
-fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
+fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
     let columns = snapshot.columns();
     columns.iter().find_map(|column| {
         let found = |point| column.at(point).find(|(_, value)| !value.is_finite()).map(|(name, _)| (name, point));
@@ -117,8 +121,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&'static str, usize)> {
 
 /// Longest stretch of steps between two looks at the observer.
 const STRETCH: Duration = Duration::from_millis(250);
-/// Share of the viscous stability limit that a step uses.
-const VISCOUS_SAFETY: f64 = 0.8;
+/// Share of the stability limit of viscosity and diffusion that a step uses.
+const STABLE_SHARE: f64 = 0.8;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -135,7 +139,7 @@ struct Run<'a> {
     scene: &'a Scene,
     engine: &'a mut dyn Engine,
     observer: &'a mut dyn Observer,
-    /// Largest stable step of the viscous term, s.
+    /// Longest step that viscosity and diffusion allow, s.
     limit: f64,
     warnings: Vec<String>,
 }
@@ -147,7 +151,7 @@ impl Run<'_> {
         for &operation in &self.scene.plan.setup {
             self.engine.apply(operation, &any)?;
         }
-        self.limit = self.viscous_limit()?;
+        self.limit = self.stability_limit()?;
         let ladder = self.ladder()?;
         let setup = started.elapsed();
         if !self.scene.plan.flows {
@@ -159,6 +163,7 @@ impl Run<'_> {
         let begun = self.scene.initial_velocity();
         let wall_speed = self.fastest(&begun, self.scene.sizes.interior);
         let mut dt = self.step(self.fastest(&begun, 0), 0.0)?;
+        self.begin_steps(dt)?;
         self.first_kick(dt)?;
         let mut good = self.snapshot(0.0)?;
         let probes = Probe::of_case(&self.scene.case, &self.scene.cloud.position)?;
@@ -225,6 +230,9 @@ impl Run<'_> {
             let speed = if self.scene.cloud.local.is_some() { self.fastest(&good.velocity, 0) } else { row.max_speed };
             let next = self.step(wall_speed.max(speed), now)?;
             self.change_step(next / dt)?;
+            if next != dt {
+                self.begin_steps(next)?;
+            }
             dt = next;
         };
         let stepping = started.elapsed();
@@ -247,6 +255,7 @@ impl Run<'_> {
         };
         if let Some((field, point)) = not_finite(&snapshot) {
             let place = self.scene.cloud.position[point];
+            let field = field.to_owned();
             return Err(SimulationError::NotFinite { field, point, x: place.x, y: place.y });
         }
         let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
@@ -299,7 +308,7 @@ impl Run<'_> {
         let longest = time.step.unwrap_or_else(|| {
             let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
             let by_motion = if moves { time.courant * spacing / speed } else { f64::INFINITY };
-            by_motion.min(self.limit)
+            by_motion.min(self.by_fall()).min(self.limit)
         });
         let left = time.end - now;
         if left <= 0.0 {
@@ -312,9 +321,26 @@ impl Run<'_> {
         }
         if dt > self.limit && self.warnings.is_empty() {
             let limit = self.limit;
-            self.warnings.push(format!("time.step = {dt:e} s is above the viscous stability limit, {limit:e} s"));
+            let diffuses = STABLE_SHARE * self.scene.constants.diffusion_limit <= limit;
+            let name = if diffuses { "diffusion" } else { "viscosity" };
+            self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
         Ok(dt)
+    }
+
+    /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
+    fn by_fall(&self) -> f64 {
+        let (gravity, spacing) = (self.scene.constants.gravity.length(), self.scene.constants.spacing);
+        match self.scene.case.effects.advection {
+            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// What depends on the length of a step, before the first one of it.
+    fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = self.scene.clock(dt);
+        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
     }
 
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
@@ -324,7 +350,19 @@ impl Run<'_> {
             return Ok(());
         }
         let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
-        for &operation in &self.scene.plan.kick {
+        let balance = clock.kick * self.scene.balanced_gravity();
+        if balance != DVec2::ZERO {
+            let inside = vec![balance; self.scene.sizes.interior];
+            self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
+        }
+        // A carried field has its half step before the first drift anyway.
+        let forces = self
+            .scene
+            .plan
+            .kick
+            .iter()
+            .filter(|operation| !matches!(operation, Operation::Diffuse(..) | Operation::HeatWalls(_)));
+        for &operation in forces {
             self.engine.apply(operation, &clock)?;
         }
         Ok(())
@@ -350,6 +388,11 @@ impl Run<'_> {
             self.engine.write(Buffer::PressureKick, &Data::Real(mean))?;
         }
         Ok(())
+    }
+
+    /// Longest step that viscosity and diffusion allow, s.
+    fn stability_limit(&mut self) -> Result<f64, EngineError> {
+        Ok(self.viscous_limit()?.min(STABLE_SHARE * self.scene.constants.diffusion_limit))
     }
 
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
@@ -379,7 +422,7 @@ impl Run<'_> {
         }
         self.engine.write(Buffer::Kick, &self.scene.zeros(Buffer::Kick))?;
         self.engine.write(field, &kept)?;
-        Ok(VISCOUS_SAFETY * 2.0 / radius)
+        Ok(STABLE_SHARE * 2.0 / radius)
     }
 
     fn ladder(&mut self) -> Result<[u64; 3], EngineError> {
@@ -412,10 +455,19 @@ impl Run<'_> {
         if self.scene.plan.form.is_some()
             && let Data::Real(values) = self.engine.read(Buffer::Pressure)?
         {
-            let mean = values[..points].iter().sum::<f64>() / points as f64;
+            let singular = self.scene.constants.singular;
+            let mean = if singular { values[..points].iter().sum::<f64>() / points as f64 } else { 0.0 };
             pressure = values[..points].iter().map(|p| p - mean).collect();
         }
-        Ok(Snapshot { time, position: self.scene.cloud.position.clone(), velocity, pressure, derivatives: None })
+        let mut carried = Vec::new();
+        for &field in &self.scene.plan.carried {
+            if let Data::Real(mut values) = self.engine.read(Buffer::Carried(field))? {
+                values.truncate(points);
+                carried.push((self.scene.case.field_name(field), values));
+            }
+        }
+        let position = self.scene.cloud.position.clone();
+        Ok(Snapshot { time, position, velocity, pressure, carried, derivatives: None })
     }
 }
 

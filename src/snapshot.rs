@@ -13,6 +13,8 @@ pub struct Snapshot {
     pub velocity: Vec<DVec2>,
     /// Pa
     pub pressure: Vec<f64>,
+    /// The fields that the flow carries, by name: the temperature, K, and tracers.
+    pub carried: Vec<(String, Vec<f64>)>,
     /// In place of velocity and pressure, where the problem is to find them.
     pub derivatives: Option<Derivatives>,
 }
@@ -31,17 +33,29 @@ pub struct Derivatives {
 /// One field, as it is written: its name, and what its columns are called.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Column<'a> {
-    Scalar { name: &'static str, column: &'static str, values: &'a [f64] },
-    Vector { name: &'static str, columns: [&'static str; 2], values: &'a [DVec2] },
+    Scalar { name: &'a str, column: &'a str, values: &'a [f64] },
+    Vector { name: &'a str, columns: [&'a str; 2], values: &'a [DVec2] },
 }
 
 impl Snapshot {
+    /// The values of a carried field; none where there is no such field.
+    pub fn carried(&self, name: &str) -> &[f64] {
+        self.carried.iter().find(|(own, _)| own == name).map_or(&[], |(_, values)| values)
+    }
+
     /// The fields that there are.
     pub fn columns(&self) -> Vec<Column<'_>> {
-        let vector = |name, columns, values| Column::Vector { name, columns, values };
-        let scalar = |name, column, values| Column::Scalar { name, column, values };
+        fn vector<'a>(name: &'a str, columns: [&'a str; 2], values: &'a [DVec2]) -> Column<'a> {
+            Column::Vector { name, columns, values }
+        }
+        fn scalar<'a>(name: &'a str, column: &'a str, values: &'a [f64]) -> Column<'a> {
+            Column::Scalar { name, column, values }
+        }
         let Some(Derivatives { value, gradient, laplacian }) = &self.derivatives else {
-            return vec![vector("velocity", ["u", "v"], &self.velocity), scalar("pressure", "p", &self.pressure)];
+            let mut columns =
+                vec![vector("velocity", ["u", "v"], &self.velocity), scalar("pressure", "p", &self.pressure)];
+            columns.extend(self.carried.iter().map(|(name, values)| scalar(name, name, values)));
+            return columns;
         };
         let mut columns =
             vec![scalar("value", "value", value), vector("gradient", ["gradient_x", "gradient_y"], gradient)];
@@ -52,9 +66,9 @@ impl Snapshot {
     }
 }
 
-impl Column<'_> {
+impl<'a> Column<'a> {
     /// Name of the field.
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'a str {
         match self {
             Column::Scalar { name, .. } | Column::Vector { name, .. } => name,
         }
@@ -73,7 +87,7 @@ impl Column<'_> {
     }
 
     /// What its columns are called.
-    pub fn names(&self) -> impl Iterator<Item = &'static str> + use<> {
+    pub fn names(&self) -> impl Iterator<Item = &'a str> + use<'a> {
         let (first, second) = match *self {
             Column::Scalar { column, .. } => (column, None),
             Column::Vector { columns: [x, y], .. } => (x, Some(y)),
@@ -82,7 +96,7 @@ impl Column<'_> {
     }
 
     /// Column names and values of one point.
-    pub fn at(&self, point: usize) -> impl Iterator<Item = (&'static str, f64)> + use<> {
+    pub fn at(&self, point: usize) -> impl Iterator<Item = (&'a str, f64)> + use<'a> {
         let (first, second) = match self {
             Column::Scalar { values, .. } => (values[point], None),
             Column::Vector { values, .. } => (values[point].x, Some(values[point].y)),

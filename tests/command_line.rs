@@ -70,3 +70,27 @@ fn a_wrong_command_line_exits_with_2_and_says_what_would_be_right() {
     }
     assert_eq!(stillpoint(folder.path(), &["--version"]).status.code(), Some(0));
 }
+
+/// `plan --measure` prices every operation of a step and every effect, and its rows add up.
+#[test]
+fn plan_measures_what_a_step_costs() {
+    let case = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/heated_cavity_ra1e4.toml");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_stillpoint"))
+        .args(["plan", &case.to_string_lossy(), "--measure", "--set", "cloud.spacing=0.0625"])
+        .output()
+        .expect("the program starts");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let micro = |name: &str| -> f64 {
+        // Effects stand below the operations, some of which begin alike.
+        let mut rows = text.lines().rev().filter(|line| line.ends_with('%'));
+        let row = rows.find_map(|line| line.trim().strip_prefix(name));
+        let row = row.unwrap_or_else(|| panic!("no row {name} in\n{text}"));
+        row.split_whitespace().next().and_then(|cell| cell.parse().ok()).expect("a number")
+    };
+    let effects = ["advection", "heat", "gravity", "buoyancy", "viscosity", "pressure", "step"]
+        .map(|name| micro(&format!("{name} ")));
+    let (all, step) = (micro("all operations"), micro("a step"));
+    assert!(effects.iter().all(|&price| price > 0.0), "{text}");
+    assert!(all > 0.85 * step && all < 1.15 * step, "{text}");
+}

@@ -1,4 +1,4 @@
-// Conjugate gradients, check 2 of 4: the mean of r.
+// Conjugate gradients, check 2 of 4: the mean of r, where the matrix has the constants in its null space.
 
 #import control
 #import total
@@ -8,6 +8,6 @@ fn main(@builtin(local_invocation_index) local: u32) {
     let live = in_phase(PHASE_CHECKING);
     let sum = total(local, live);
     if local == 0u && live {
-        scalars[MEAN] = sum.x / real(POINTS);
+        scalars[MEAN] = select(real(0.0), sum.x / real(POINTS), SINGULAR);
     }
 }

@@ -8,7 +8,7 @@ fn main(@builtin(local_invocation_index) local: u32) {
         atomicAdd(&control[STEPS], 1u);
         if atomicLoad(&control[MOST_NEIGHBOURS]) > 0u {
             halt(HALTED_BY_OVERFLOW);
-        } else if atomicLoad(&control[BAD_VELOCITY]) != NO_POINT || atomicLoad(&control[BAD_PRESSURE]) != NO_POINT {
+        } else if min(min(atomicLoad(&control[BAD_VELOCITY]), atomicLoad(&control[BAD_PRESSURE])), atomicLoad(&control[BAD_CARRIED])) != NO_POINT {
             halt(HALTED_BY_NON_FINITE);
         }
     }

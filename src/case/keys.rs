@@ -25,8 +25,11 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("cloud.refine.growth", "a number above 0 and at most 0.3, m/m"),
     ("fluid", "a table with the key density"),
     ("fluid.density", "a number above 0, kg/m^3"),
+    ("boundaries.*.kind", r#""wall", "slip", "inlet" or "outlet""#),
+    ("boundaries.*.profile", r#""uniform" or "parabola""#),
     ("boundaries.*.velocity", "two numbers [along x, along y], m/s"),
-    ("boundaries.*.parabola", "a speed other than 0, m/s"),
+    ("boundaries.*.temperature", "a number, K"),
+    ("boundaries.*.heat_flux", "a number, K m/s, above 0 into the domain"),
     ("obstacles", "tables [[obstacles]]"),
     ("obstacles.name", "letters, digits, _ and - alone, and no side's name"),
     ("obstacles.circle", "a table with the keys centre, radius"),
@@ -45,6 +48,17 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),
     ("effects.advection.remap", r#""departure" or "forward""#),
+    ("effects.gravity.acceleration", "two numbers [along x, along y], m/s^2, not both 0"),
+    ("effects.heat.diffusivity", "a number above 0, m^2/s"),
+    ("effects.heat.initial", "a number, K"),
+    ("effects.buoyancy.expansion", "a number other than 0, 1/K"),
+    ("effects.buoyancy.reference", "a number, K"),
+    ("effects.tracers.name", "a name of letters, digits and _, not that of another field"),
+    ("effects.tracers.diffusivity", "a number from 0, m^2/s"),
+    ("effects.tracers.shape", r#""gaussian", "disc" or "box""#),
+    ("effects.tracers.centre", "two numbers [x, y], m"),
+    ("effects.tracers.radius", "a length above 0, m"),
+    ("effects.tracers.size", "two lengths above 0 [width, height], m"),
     ("time", "a table with the key end"),
     ("time.end", "a time above 0, s"),
     ("time.courant", "a number above 0 and at most 50, in spacings a step"),
@@ -52,7 +66,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("time.steady", "a number above 0, m/s^2"),
     ("time.splitting", r#""reflection" or "projection""#),
     ("exact", "a table with the key solution"),
-    ("exact.solution", r#""taylor_green" or "kovasznay""#),
+    ("exact.solution", r#""taylor_green", "kovasznay", "couette", "poiseuille", "conduction" or "rotation""#),
     ("derivatives", "a table with the key field"),
     ("derivatives.field", r#""waves" or "cosines""#),
     ("poisson", "a table with the key field"),
@@ -61,14 +75,22 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("output.pictures", "true or false"),
     ("expect", "tables [expect.NAME]"),
     ("expect.*", "a table, its name of letters, digits, _ and - alone"),
-    ("expect.*.component", r#""u", "v" or "p"; "velocity", "gradient", "laplacian", "x" or "y" with some measures"#),
+    (
+        "expect.*.component",
+        r#""u", "v", "p", "temperature" or "tracer"; "velocity", "gradient", "laplacian", "x" or "y" with some measures"#,
+    ),
     ("expect.*.line", "{ x = NUMBER } or { y = NUMBER }, m, inside the domain"),
-    ("expect.*.measure", r#""minimum", "maximum", "profile", "error", "force", "difference" or "flux""#),
+    (
+        "expect.*.measure",
+        r#""minimum", "maximum", "profile", "error", "force", "difference", "flux", "slope" or "loss""#,
+    ),
     ("expect.*.on", r#"the name of an obstacle; with measure = "flux" also a side"#),
     ("expect.*.between", "two places [[x, y], [x, y]] in the fluid, m"),
-    ("expect.*.value", "a number other than 0 (its error is relative), m/s, Pa, N/m or m^2/s"),
+    ("expect.*.value", "a number other than 0 (its error is relative), m/s, Pa, K, K/m, N/m or m^2/s"),
     ("expect.*.profile", "the path of a CSV file, from the case file's folder"),
     ("expect.*.column", "the name of a column of the profile"),
+    ("expect.*.tracer", "the name of one of effects.tracers"),
+    ("expect.*.side", r#""left", "right", "bottom" or "top""#),
     ("expect.*.tolerance", "a number above 0, relative"),
     ("expect.*.source", "a line that says where the value was published"),
 ];
@@ -136,7 +158,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 17] = [
+        let tables: [(&str, &[&str]); 21] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("cloud.refine", fields::<Refine>()),
@@ -148,6 +170,10 @@ mod tests {
             ("effects.viscosity", fields::<Viscosity>()),
             ("effects.pressure", fields::<Pressure>()),
             ("effects.advection", fields::<Advection>()),
+            ("effects.gravity", fields::<Gravity>()),
+            ("effects.heat", fields::<Heat>()),
+            ("effects.buoyancy", fields::<Buoyancy>()),
+            ("effects.tracers", fields::<Tracer>()),
             ("time", fields::<Time>()),
             ("exact", fields::<Exact>()),
             ("derivatives", fields::<KnownField>()),
@@ -173,7 +199,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 13] = [
+        let keys: [(&str, &[&str]); 17] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
@@ -186,7 +212,11 @@ mod tests {
             ("effects.pressure.gradient", words::<Gradient>()),
             ("effects.pressure.solver", words::<Solver>()),
             ("effects.advection.remap", words::<Remap>()),
+            ("effects.tracers.shape", words::<Shape>()),
+            ("boundaries.any.kind", words::<SideKind>()),
+            ("boundaries.any.profile", words::<SideProfile>()),
             ("expect.any.measure", words::<Measure>()),
+            ("expect.any.side", words::<SideName>()),
         ];
         for (key, words) in keys {
             let text = allowed(&path(key)).expect(key);

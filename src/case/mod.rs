@@ -6,6 +6,7 @@
 mod check;
 pub(crate) mod decode;
 mod defaults;
+mod derived;
 pub(crate) mod document;
 pub(crate) mod error;
 pub(crate) mod fault;
@@ -14,6 +15,7 @@ pub(crate) mod load;
 mod obstacle;
 mod reference;
 pub(crate) mod text;
+mod tracer;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, SMALLEST_RADIUS, WIDEST_LADDER};
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
@@ -149,23 +151,48 @@ pub struct Boundaries {
 impl Boundaries {
     /// The sides by name.
     pub fn each(&self) -> [(&'static str, &Wall); 4] {
-        [("left", &self.left), ("right", &self.right), ("bottom", &self.bottom), ("top", &self.top)]
-    }
-
-    /// Fluid comes and goes through some side.
-    pub fn let_through(&self) -> bool {
-        self.each().iter().any(|(_, wall)| wall.parabola.is_some())
+        let Self { left, right, bottom, top } = self;
+        [("left", left), ("right", right), ("bottom", bottom), ("top", top)]
     }
 }
 
-/// A solid wall that moves along itself, or a side that fluid comes through.
+/// One side: a solid wall that moves along itself unless its kind says otherwise.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
-    /// Velocity of the wall, m/s, tangent to it.
+    pub kind: SideKind,
+    /// Velocity of the wall, m/s, tangent to it; or that of the fluid that comes in, the largest of a parabola.
     pub velocity: [f64; 2],
-    /// In place of a wall: fluid comes in with a parabola of this largest speed, m/s; it leaves where that is negative.
-    pub parabola: Option<f64>,
+    /// How the velocity goes along the side.
+    pub profile: SideProfile,
+    /// Temperature that is held there, K; a side that says nothing of heat lets none through.
+    pub temperature: Option<f64>,
+    /// Heat that flows in, over density and heat capacity, K m/s.
+    pub heat_flux: Option<f64>,
+}
+
+/// What a side does to the velocity and to the pressure.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideKind {
+    /// The fluid has its velocity.
+    #[default]
+    Wall,
+    /// Nothing passes, and nothing drags: a plane of symmetry.
+    Slip,
+    /// Fluid comes in with its velocity.
+    Inlet,
+    /// Fluid leaves as it comes, at pressure 0.
+    Outlet,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideProfile {
+    #[default]
+    Uniform,
+    /// `4 s (1 - s)` times the velocity, `s` from 0 to 1 along the side.
+    Parabola,
 }
 
 /// How derivatives become sums over neighbours.
@@ -215,6 +242,11 @@ pub struct Effects {
     pub viscosity: Option<Viscosity>,
     pub pressure: Option<Pressure>,
     pub advection: Option<Advection>,
+    pub gravity: Option<Gravity>,
+    pub heat: Option<Heat>,
+    pub buoyancy: Option<Buoyancy>,
+    #[serde(default)]
+    pub tracers: Vec<Tracer>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -311,6 +343,66 @@ pub enum Remap {
     Forward,
 }
 
+/// A force that is the same everywhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// m/s^2
+    pub acceleration: [f64; 2],
+}
+
+/// A temperature that the flow carries and that conducts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heat {
+    /// m^2/s
+    pub diffusivity: f64,
+    /// Temperature that the run begins with, K.
+    #[serde(default)]
+    pub initial: f64,
+}
+
+/// The force of Boussinesq: warm fluid is lighter, and the difference counts for nothing but its weight.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Buoyancy {
+    /// Relative expansion, 1/K.
+    pub expansion: f64,
+    /// Temperature at which the density is `fluid.density`, K.
+    #[serde(default)]
+    pub reference: f64,
+}
+
+/// Something that the flow carries and that does not change it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tracer {
+    /// What its column and its picture are called.
+    pub name: String,
+    /// m^2/s
+    #[serde(default)]
+    pub diffusivity: f64,
+    /// What the run begins with; 1 at most.
+    pub shape: Shape,
+    /// m
+    pub centre: [f64; 2],
+    /// `gaussian` and `disc`: m.
+    pub radius: Option<f64>,
+    /// `box`: width and height, m.
+    pub size: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// `exp(-r^2 / radius^2)`, `r` the distance from the centre.
+    Gaussian,
+    /// 1 within the radius, else 0.
+    Disc,
+    /// 1 within half the size of the centre along x and y, else 0.
+    Box,
+}
+
 /// A field whose value and derivatives are known everywhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -390,6 +482,14 @@ pub enum Solution {
     TaylorGreen,
     /// The steady flow behind a row of cylinders, through a box.
     Kovasznay,
+    /// A velocity that is prescribed and stays: one turn a second about the middle of the domain.
+    Rotation,
+    /// The flow between two plates of which one begins to move.
+    Couette,
+    /// The flow between two plates along which gravity begins to act.
+    Poiseuille,
+    /// Heat between two sides that are held at their temperatures from the beginning on.
+    Conduction,
 }
 
 /// No time: of a problem without.
@@ -440,6 +540,10 @@ pub struct Expectation {
     /// Largest relative error (extremes), rms error over the profile's largest magnitude (profiles), or rms error over the rms
     /// of the exact field (errors).
     pub tolerance: f64,
+    /// `loss` and `error` of the component `tracer`: which one, by its name.
+    pub tracer: Option<String>,
+    /// `slope`: the side across which it is taken.
+    pub side: Option<SideName>,
     /// Where the value was published.
     pub source: String,
 }
@@ -455,6 +559,10 @@ pub enum Component {
     P,
     /// Both components of the velocity, m/s: `error` alone.
     Velocity,
+    /// K
+    Temperature,
+    /// No unit: `error` and `loss` alone.
+    Tracer,
     /// The gradient of a known field, 1/m: `error` alone.
     Gradient,
     /// Its Laplacian, 1/m^2: `error` alone.
@@ -488,4 +596,19 @@ pub enum Measure {
     Difference,
     /// Volume flux out of the fluid through a side or an outline, per metre of depth.
     Flux,
+    /// The mean slope of the temperature across a side, into the domain, K/m.
+    Slope,
+    /// What has been lost of a tracer since the beginning, over what there was; of the velocity, what comes in and does not go out, over
+    /// what comes in.
+    Loss,
+}
+
+/// A side of the rectangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SideName {
+    Left,
+    Right,
+    Bottom,
+    Top,
 }

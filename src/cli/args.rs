@@ -72,6 +72,9 @@ pub struct PlanArguments {
     /// Floating-point numbers of the fields.
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
+    /// Take steps on the CPU and show what each operation and each effect costs.
+    #[arg(long)]
+    pub measure: bool,
 }
 
 #[derive(Debug, Args)]

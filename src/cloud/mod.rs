@@ -5,6 +5,7 @@ mod error;
 pub mod flux;
 pub mod grid;
 mod layers;
+mod open;
 mod outline;
 mod period;
 mod relaxation;
@@ -18,6 +19,7 @@ use glam::DVec2;
 use crate::case;
 use arrangement::Room;
 pub use error::CloudError;
+pub use open::{OpenPoint, open_points};
 pub use outline::{Outline, Traced, outlines};
 pub use period::{inside, shortest};
 pub use shape::Shape;
@@ -164,14 +166,13 @@ impl Cloud {
         std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
     }
 
-    /// The velocity that the walls prescribe at each boundary point, m/s. A corner takes what both its walls agree
-    /// on, else it rests: below a lid it belongs to the side wall. Obstacles rest.
+    /// The velocity that the sides prescribe at each boundary point, m/s. A corner takes what its sides agree on, of those that
+    /// prescribe one, else it rests: below a lid it belongs to the side wall. Rest where no side does, and on obstacles.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
-        // A corner takes what both its walls agree on.
         let agreed = |(sides, &place): (&Vec<Side>, &DVec2)| {
-            let velocity = |side: &Side| side.velocity(boundaries, place, self.size);
-            let first = sides.first().map_or(DVec2::ZERO, velocity);
-            if sides.iter().all(|side| velocity(side) == first) { first } else { DVec2::ZERO }
+            let mut given = sides.iter().filter_map(|side| side.velocity(boundaries, place, self.size));
+            let first = given.next().unwrap_or(DVec2::ZERO);
+            if given.all(|velocity| velocity == first) { first } else { DVec2::ZERO }
         };
         self.sides.iter().zip(&self.position[self.interior..]).map(agreed).collect()
     }

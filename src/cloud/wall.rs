@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::outline::divided;
 use super::sizing::Sizing;
-use crate::case::{Boundaries, Wall};
+use crate::case::{Boundaries, SideKind, SideProfile, Wall};
 
 /// One side of the rectangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -28,18 +28,6 @@ impl Side {
         }
     }
 
-    /// The velocity that the case prescribes at a place on this side, m/s: along it, or inward in a parabola that rests at both
-    /// ends. `size` is the rectangle's, m.
-    pub fn velocity(self, boundaries: &Boundaries, place: DVec2, size: DVec2) -> DVec2 {
-        let wall = self.wall(boundaries);
-        let share = match self {
-            Side::Left | Side::Right => place.y / size.y,
-            Side::Bottom | Side::Top => place.x / size.x,
-        };
-        let speed = wall.parabola.map_or(0.0, |largest| 4.0 * largest * share * (1.0 - share));
-        DVec2::from_array(wall.velocity) - speed * self.normal()
-    }
-
     /// What the case says of this side.
     pub fn wall(self, boundaries: &Boundaries) -> &Wall {
         match self {
@@ -47,6 +35,23 @@ impl Side {
             Side::Right => &boundaries.right,
             Side::Bottom => &boundaries.bottom,
             Side::Top => &boundaries.top,
+        }
+    }
+}
+
+impl Side {
+    /// What the side prescribes at a place on it, m/s, in a rectangle of `size`, m; `None` where it follows the fluid.
+    pub fn velocity(self, boundaries: &Boundaries, place: DVec2, size: DVec2) -> Option<DVec2> {
+        let wall = self.wall(boundaries);
+        let along = self.normal().perp().abs();
+        let s = place.dot(along) / size.dot(along);
+        let share = match wall.profile {
+            SideProfile::Uniform => 1.0,
+            SideProfile::Parabola => 4.0 * s * (1.0 - s),
+        };
+        match wall.kind {
+            SideKind::Wall | SideKind::Inlet => Some(share * DVec2::from(wall.velocity)),
+            SideKind::Slip | SideKind::Outlet => None,
         }
     }
 }

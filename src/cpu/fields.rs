@@ -92,10 +92,16 @@ impl<T: Real> Fields<T> {
 /// What every entry of an index array must be below.
 fn bound(buffer: Buffer, sizes: &Sizes) -> usize {
     match buffer {
-        Buffer::Neighbours(_) | Buffer::FaceNeighbours | Buffer::FluxPoints | Buffer::CellPoints(_) => sizes.points,
+        Buffer::Neighbours(_)
+        | Buffer::FaceNeighbours
+        | Buffer::FluxPoints
+        | Buffer::DepartureNearest
+        | Buffer::OpenPoints
+        | Buffer::CellPoints(_) => sizes.points,
         Buffer::NeighbourCount(_) => sizes.capacity + 1,
         Buffer::FaceCount => sizes.face_capacity + 1,
         Buffer::FluxCount => sizes.flux_capacity + 1,
+        Buffer::OpenCount => sizes.open_capacity + 1,
         Buffer::CellStart(_) => sizes.points + 1,
         _ => u32::MAX as usize + 1,
     }

@@ -1,12 +1,16 @@
 //! Flows that are known at every place and time: where a run begins, what its walls prescribe, what it is measured against.
 
 mod kovasznay;
+mod rotation;
+mod slab;
 mod taylor_green;
 
 use glam::DVec2;
 
-use crate::case::{Case, Solution};
+use crate::case::{Case, Solution, Tracer};
 use kovasznay::Kovasznay;
+use rotation::Rotation;
+use slab::Slab;
 use taylor_green::TaylorGreen;
 
 /// The exact solution of a case.
@@ -14,6 +18,11 @@ use taylor_green::TaylorGreen;
 pub enum Exact {
     TaylorGreen(TaylorGreen),
     Kovasznay(Kovasznay),
+    Rotation(Rotation),
+    /// A flow along x between two plates.
+    Plates(Slab),
+    /// Heat between two sides.
+    Conduction(Slab),
 }
 
 impl Exact {
@@ -25,6 +34,27 @@ impl Exact {
         case.exact.as_ref().map(|exact| match exact.solution {
             Solution::TaylorGreen => Exact::TaylorGreen(TaylorGreen::new(shorter, viscosity, density)),
             Solution::Kovasznay => Exact::Kovasznay(Kovasznay::new(viscosity, density)),
+            Solution::Couette | Solution::Poiseuille => Exact::Plates(Slab {
+                length: case.domain.height,
+                upright: true,
+                diffusivity: viscosity,
+                plates: [case.boundaries.bottom.velocity[0], case.boundaries.top.velocity[0]],
+                initial: 0.0,
+                source: case.effects.gravity.as_ref().map_or(0.0, |gravity| gravity.acceleration[0]),
+            }),
+            Solution::Conduction => {
+                let heat = case.effects.heat.as_ref();
+                let held = [&case.boundaries.left, &case.boundaries.right].map(|wall| wall.temperature.unwrap_or(0.0));
+                Exact::Conduction(Slab {
+                    length: case.domain.width,
+                    upright: false,
+                    diffusivity: heat.map_or(0.0, |heat| heat.diffusivity),
+                    plates: held,
+                    initial: heat.map_or(0.0, |heat| heat.initial),
+                    source: 0.0,
+                })
+            }
+            Solution::Rotation => Exact::Rotation(Rotation::new(DVec2::new(case.domain.width, case.domain.height))),
         })
     }
 
@@ -33,6 +63,9 @@ impl Exact {
         match self {
             Exact::TaylorGreen(flow) => flow.velocity(place, time),
             Exact::Kovasznay(flow) => flow.velocity(place),
+            Exact::Rotation(flow) => flow.velocity(place),
+            Exact::Plates(slab) => DVec2::new(slab.value(place, time), 0.0),
+            Exact::Conduction(_) => DVec2::ZERO,
         }
     }
 
@@ -41,6 +74,24 @@ impl Exact {
         match self {
             Exact::TaylorGreen(flow) => flow.pressure(place, time),
             Exact::Kovasznay(flow) => flow.pressure(place),
+            // There is none, or it is constant.
+            Exact::Rotation(_) | Exact::Plates(_) | Exact::Conduction(_) => 0.0,
+        }
+    }
+
+    /// What has become of a tracer at a place, m, and a time, s; `None` where that is not known.
+    pub fn tracer(&self, tracer: &Tracer, place: DVec2, time: f64) -> Option<f64> {
+        match self {
+            Exact::Rotation(flow) => flow.tracer(tracer, place, time),
+            _ => None,
+        }
+    }
+
+    /// The temperature at a place, m, and a time, s, K; `None` where it is not known.
+    pub fn temperature(&self, place: DVec2, time: f64) -> Option<f64> {
+        match self {
+            Exact::Conduction(slab) => Some(slab.value(place, time)),
+            _ => None,
         }
     }
 }

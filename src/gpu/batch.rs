@@ -134,6 +134,7 @@ impl Batch<'_> {
         let mut words = vec![0; Word::NAMES.len()];
         words[Word::BadVelocity as usize] = NO_POINT;
         words[Word::BadPressure as usize] = NO_POINT;
+        words[Word::BadCarried as usize] = NO_POINT;
         // The state of the last solve stays, to be told.
         words.truncate(Word::Phase as usize);
         self.memory.upload_words(self.gpu, self.memory.own(Own::Control), &words)

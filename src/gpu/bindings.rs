@@ -112,6 +112,8 @@ fn name_in(operation: Operation, buffer: Buffer, scene: &Scene) -> String {
         operation,
         Operation::FitVelocity(_)
             | Operation::RemapDeparture
+            | Operation::FindDepartures
+            | Operation::CarryVelocity
             | Operation::MovePoints
             | Operation::RemapForward
             | Operation::KeepVelocity
@@ -124,11 +126,23 @@ fn name_in(operation: Operation, buffer: Buffer, scene: &Scene) -> String {
     {
         return "diffused".to_owned();
     }
-    if operation == Operation::RemapDeparture {
+    if let Operation::OpenSides(kicked) = operation
+        && buffer == kicked.velocity()
+    {
+        return "followed".to_owned();
+    }
+    if matches!(operation, Operation::RemapDeparture | Operation::FindDepartures) {
         let [around, around_count] = plan.around();
         if buffer == around || buffer == around_count {
             return if buffer == around { "around" } else { "around_count" }.to_owned();
         }
+    }
+    // One kernel serves every field.
+    match (operation, buffer) {
+        (Operation::Buoyancy, _) => {}
+        (_, Buffer::Carried(_)) => return "carried".to_owned(),
+        (_, Buffer::Reach(_)) => return "reach".to_owned(),
+        _ => {}
     }
     let name = buffer.name();
     match operation {
@@ -160,8 +174,16 @@ pub(super) fn declare(bindings: &[Binding]) -> String {
 
 /// x and y of a point side by side.
 fn interleaved(buffer: Buffer) -> bool {
-    let none =
-        Sizes { points: 0, interior: 0, capacity: 0, face_capacity: 0, flux_capacity: 0, cells: 0, coefficients: 0 };
+    let none = Sizes {
+        points: 0,
+        interior: 0,
+        capacity: 0,
+        face_capacity: 0,
+        flux_capacity: 0,
+        open_capacity: 0,
+        cells: 0,
+        coefficients: 0,
+    };
     buffer.per_point(&none) == Some(2)
 }
 

@@ -76,6 +76,7 @@ impl GpuEngine {
             .iter()
             .map(|time| match time {
                 Time::Dt => clock.dt,
+                Time::Kick => clock.kick,
                 Time::SecondKick => clock.second_kick,
                 Time::Source => -density_per_kick,
                 Time::DensityPerKick => density_per_kick,
@@ -111,7 +112,7 @@ impl GpuEngine {
                     let fallback = done.trouble.is_none() && !step.contains(&Operation::DirectSolve);
                     self.fallbacks += u32::from(fallback);
                 }
-                Halted::ByNonFinite => done.trouble = trouble(&report),
+                Halted::ByNonFinite => done.trouble = self.trouble(&report)?,
                 Halted::Not | Halted::InSolve | Halted::ByOverflow => {}
             }
             // Of a single operation nothing is left once it came to rest.
@@ -171,20 +172,32 @@ impl GpuEngine {
         Ok(None)
     }
 
+    /// What a report found that is no number.
+    fn trouble(&mut self, report: &Report) -> Result<Option<NonFinite>, EngineError> {
+        let found = [(Word::BadVelocity, Buffer::Projected), (Word::BadPressure, Buffer::Pressure)]
+            .into_iter()
+            .map(|(word, buffer)| (report.word(word), buffer))
+            .find(|&(point, _)| point != NO_POINT)
+            .map(|(point, buffer)| NonFinite { buffer, point: point as usize });
+        if found.is_some() {
+            return Ok(found);
+        }
+        // The kernels do not say in which of the carried fields.
+        for field in self.scene.plan.carried.clone() {
+            let first = self.first_non_finite(Buffer::Carried(field), 1)?;
+            if first.is_some() {
+                return Ok(first);
+            }
+        }
+        Ok(None)
+    }
+
     /// The first point whose `width` entries are not all finite.
     fn first_non_finite(&mut self, buffer: Buffer, width: usize) -> Result<Option<NonFinite>, EngineError> {
         let Data::Real(values) = self.read(buffer)? else { return Ok(None) };
         let entry = values.iter().position(|value| !value.is_finite());
         Ok(entry.map(|entry| NonFinite { buffer, point: entry / width }))
     }
-}
-
-fn trouble(report: &Report) -> Option<NonFinite> {
-    [(Word::BadVelocity, Buffer::Projected), (Word::BadPressure, Buffer::Pressure)]
-        .into_iter()
-        .map(|(word, buffer)| (report.word(word), buffer))
-        .find(|&(point, _)| point != NO_POINT)
-        .map(|(point, buffer)| NonFinite { buffer, point: point as usize })
 }
 
 impl Engine for GpuEngine {

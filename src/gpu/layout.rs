@@ -31,6 +31,7 @@ numbered! {
         /// First point whose field is not a number.
         BadVelocity = "BAD_VELOCITY",
         BadPressure = "BAD_PRESSURE",
+        BadCarried = "BAD_CARRIED",
         /// The solve under way.
         Phase = "PHASE",
         Outcome = "OUTCOME",
@@ -93,6 +94,8 @@ numbered! {
     /// Entries of `clock`.
     Time {
         Dt = "CLOCK_DT",
+        /// How long the forces act, s.
+        Kick = "CLOCK_KICK",
         SecondKick = "CLOCK_SECOND_KICK",
         /// `-rho / kick`: of the conservative source.
         Source = "CLOCK_SOURCE",

@@ -88,7 +88,12 @@ impl Memory {
     fn check_indexes(&self, buffer: Buffer, values: &[u32]) -> Result<(), EngineError> {
         if !matches!(
             buffer,
-            Buffer::Neighbours(_) | Buffer::FaceNeighbours | Buffer::FluxPoints | Buffer::CellPoints(_)
+            Buffer::Neighbours(_)
+                | Buffer::FaceNeighbours
+                | Buffer::FluxPoints
+                | Buffer::DepartureNearest
+                | Buffer::OpenPoints
+                | Buffer::CellPoints(_)
         ) {
             return Ok(());
         }

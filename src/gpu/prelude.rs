@@ -89,6 +89,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("CAPACITY", sizes.capacity),
         ("FACE_CAPACITY", sizes.face_capacity),
         ("FLUX_CAPACITY", sizes.flux_capacity),
+        ("OPEN_CAPACITY", sizes.open_capacity),
         ("AROUND_CAPACITY", scene.plan.around_capacity(sizes)),
         ("CELLS", sizes.cells),
         ("CELLS_X", constants.grid.cells[0] as usize),
@@ -116,6 +117,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     ];
     let real: &[(&str, f64)] = &[
         ("RADIUS", constants.radius),
+        ("TRACE", constants.trace),
+        ("REFERENCE_TEMPERATURE", constants.reference_temperature),
         ("LATTICE_DENSITY", constants.lattice.density),
         ("LATTICE_SPREAD", constants.lattice.spread),
         ("DIMENSIONS", DIMENSIONS),
@@ -137,10 +140,13 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("SIZE", constants.size),
         ("PERIOD", constants.period),
         ("PER_PERIOD", per_period),
+        ("GRAVITY", constants.gravity),
+        ("LIFT", constants.lift),
     ];
     for (name, DVec2 { x, y }) in pairs {
         line(&mut text, format_args!("const {name} = vector({x:e}, {y:e});"));
     }
+    line(&mut text, format_args!("const SINGULAR: bool = {};", constants.singular));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");

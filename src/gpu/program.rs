@@ -122,6 +122,10 @@ pub(super) fn end_step_stages(scene: &Scene) -> Vec<(Stage, Arrays)> {
     if scene.plan.buffers().contains(&Buffer::Pressure) {
         stages.push((sources::WATCH_PRESSURE, reading([Buffer::Pressure])));
     }
+    for &field in &scene.plan.carried {
+        let array = (Buffer::Carried(field), "carried".to_owned());
+        stages.push((sources::WATCH_CARRIED, [vec![array], Vec::new()]));
+    }
     stages.push((sources::END_STEP, reading([])));
     stages
 }

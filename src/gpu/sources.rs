@@ -5,7 +5,7 @@ use super::unrolled;
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
-use crate::step::Operation;
+use crate::step::{Carried, Operation, Stage as Part};
 
 /// One kernel.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +50,7 @@ pub(super) const BEGIN_SOLVE: Stage = stage!("step/begin_solve");
 pub(super) const END_SOLVE: Stage = stage!("step/end_solve");
 pub(super) const WATCH_VELOCITY: Stage = stage!("step/watch_velocity", Points);
 pub(super) const WATCH_PRESSURE: Stage = stage!("step/watch_pressure", Points);
+pub(super) const WATCH_CARRIED: Stage = stage!("step/watch_carried", Points);
 pub(super) const END_STEP: Stage = stage!("step/end_step");
 pub(super) const MEASURE: [Stage; 2] = [stage!("measure/partial", Points), stage!("measure/total")];
 
@@ -79,11 +80,22 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::RemapDeparture => once(stage!("remap_departure", Points)),
         Operation::MovePoints => once(stage!("move_points", Points)),
         Operation::RemapForward => once(stage!("remap_forward", Points)),
+        Operation::FindDepartures => once(stage!("find_departures", Points)),
+        Operation::CarryVelocity => once(stage!("carry_velocity", Points)),
+        Operation::FitScalar(_) => once(stage!("fit_scalar", Points)),
+        Operation::CarryScalar(Carried::Temperature) => once(stage!("carry_scalar/free", Points)),
+        Operation::CarryScalar(Carried::Tracer(_)) => once(stage!("carry_scalar/all", Points)),
+        Operation::Diffuse(_, Part::Start) => once(stage!("diffuse/start", Points)),
+        Operation::Diffuse(_, Part::Middle) => once(stage!("diffuse/middle", Points)),
+        Operation::HeatWalls(Part::Start) => once(stage!("heat_walls/start", Points)),
+        Operation::HeatWalls(Part::Middle) => once(stage!("heat_walls/middle", Points)),
         Operation::KeepVelocity => once(stage!("keep_velocity", Points)),
         Operation::Average => once(stage!("average", Points)),
         Operation::Gradient => once(stage!("gradient", Points)),
         Operation::Laplacian => once(stage!("laplacian", Points)),
         Operation::ClearKick => once(stage!("clear_kick", Points)),
+        Operation::Gravity => once(stage!("gravity", Points)),
+        Operation::Buoyancy => once(stage!("buoyancy", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
         Operation::Predict => once(stage!("predict", Points)),
@@ -131,6 +143,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::CorrectByFit => once(stage!("correct_by_fit", Points)),
         Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
         Operation::HoldWalls => once(stage!("hold_walls", Points)),
+        Operation::OpenSides(_) => once(stage!("open_sides", Points)),
         Operation::Reflect => once(stage!("reflect", Points)),
     }
 }
@@ -155,6 +168,10 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "gradient" => text!("gradient"),
         "fitted_flux" => text!("fitted_flux"),
         "evaluate" => text!("evaluate"),
+        "departure" => text!("departure"),
+        "nearest" => text!("nearest"),
+        "brought" => text!("brought"),
+        "exchange" => text!("exchange"),
         "face_flux" => text!("face_flux"),
         "sums" => text!("sums"),
         "total" => text!("total"),

@@ -15,6 +15,8 @@ pub(super) fn library(name: &str, order: usize) -> Option<String> {
         "unrolled/matrix" => matrix(&mut text, order),
         "unrolled/store_fit" => store_fit(&mut text, order),
         "unrolled/stored_fit" => stored_fit(&mut text, order),
+        "unrolled/store_scalar_fit" => store_scalar_fit(&mut text, order),
+        "unrolled/stored_scalar_fit" => stored_scalar_fit(&mut text, order),
         _ => return None,
     }
     Some(text.0)
@@ -173,5 +175,22 @@ fn stored_fit(text: &mut Text, order: usize) {
     text.line("fn stored_fit(i: u32) -> Coefficients {\n    let k = at(i, 0u, 2u * COEFFICIENTS);");
     let of = |k: usize| format!("vector(coefficients[k + {k}u * BLOCK], coefficients[k + {}u * BLOCK])", count + k);
     let all: Vec<_> = (0..count).map(of).collect();
+    text.line(format!("    return Coefficients({});\n}}", all.join(", ")));
+}
+
+/// Puts the fit of a scalar field where it is stored: the value, then the coefficients.
+fn store_scalar_fit(text: &mut Text, order: usize) {
+    text.line("fn store_scalar_fit(i: u32, own: real, a: Coefficients) {\n    let k = at(i, 0u, 1u + COEFFICIENTS);");
+    text.line("    scalar_fit[k] = own;");
+    for k in 0..coefficients(order) {
+        text.line(format!("    scalar_fit[k + {}u * BLOCK] = a.a{k};", k + 1));
+    }
+    text.line("}");
+}
+
+/// The coefficients taken out again.
+fn stored_scalar_fit(text: &mut Text, order: usize) {
+    text.line("fn stored_scalar_fit(i: u32) -> Coefficients {\n    let k = at(i, 0u, 1u + COEFFICIENTS);");
+    let all: Vec<_> = (1..=coefficients(order)).map(|k| format!("scalar_fit[k + {k}u * BLOCK]")).collect();
     text.line(format!("    return Coefficients({});\n}}", all.join(", ")));
 }

@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::line::TEMPERATURE;
+use super::loss::{amounts, flows};
+use super::slope::mean_slope;
 use super::{FieldError, LineMeasure, MeasureError, Probe, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::exact::Exact;
@@ -46,15 +49,37 @@ pub fn evaluate(
     let sampler = Sampler::of(case, &snapshot.position)?;
     let exact = Exact::of(case);
     // A point that is not a number fails every row, however far from the row's line.
-    let finite = snapshot.velocity.iter().all(|u| u.is_finite()) && snapshot.pressure.iter().all(|p| p.is_finite());
+    let finite = snapshot.velocity.iter().all(|u| u.is_finite())
+        && snapshot.pressure.iter().all(|p| p.is_finite())
+        && snapshot.carried.iter().all(|(_, values)| values.iter().all(|value| value.is_finite()));
     case.expect
         .iter()
         .map(|(name, row)| {
             let fail = |what: &str| MeasureError::Expectation { name: name.clone(), what: what.to_owned() };
+            let tracer = case.effects.tracers.iter().find(|tracer| Some(&tracer.name) == row.tracer.as_ref());
             let found = match row.measure {
+                Measure::Slope => {
+                    let side = row.side.ok_or_else(|| fail("`side` is missing"))?;
+                    let field = snapshot.carried(TEMPERATURE);
+                    let value = mean_slope(case, side, field)?;
+                    let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
+                }
+                Measure::Loss if row.component == Component::Velocity => {
+                    let [reference, value] = flows(&sampler, case, &snapshot.velocity);
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
+                }
+                Measure::Loss => {
+                    let tracer = tracer.ok_or_else(|| fail("`tracer` is missing"))?;
+                    let [reference, value] = amounts(case, tracer, snapshot.carried(&tracer.name))?;
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
+                }
                 Measure::Error => {
                     let known = Known::of(case).map(|known| FieldError::of_known(snapshot, &known, row.component));
-                    let flow = exact.as_ref().map(|exact| FieldError::new(snapshot, exact, row.component));
+                    let flow = exact.as_ref().map(|exact| match tracer {
+                        Some(tracer) => FieldError::of_tracer(snapshot, exact, tracer),
+                        None => FieldError::new(snapshot, exact, row.component),
+                    });
                     Found::of_field(known.or(flow).ok_or_else(|| fail("there is no exact solution"))?)
                 }
                 Measure::Force | Measure::Difference | Measure::Flux => {
@@ -149,12 +174,16 @@ fn quantity(row: &Expectation) -> String {
         Measure::Difference => "difference of",
         Measure::Force => "force",
         Measure::Flux => "flux of",
+        Measure::Slope => "slope of",
+        Measure::Loss => "loss of",
     };
     let component = match row.component {
         Component::U => "u",
         Component::V => "v",
         Component::P => "p",
         Component::Velocity => "the velocity",
+        Component::Temperature => "the temperature",
+        Component::Tracer => row.tracer.as_deref().unwrap_or("a tracer"),
         Component::Gradient => "the gradient",
         Component::Laplacian => "the Laplacian",
         Component::X => "along x",
@@ -172,7 +201,10 @@ fn quantity(row: &Expectation) -> String {
     match row.line {
         Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),
         Some(Line::Y(y)) => format!("{measure} {component} along y = {y}"),
-        None => format!("{measure} {component} over all points"),
+        None => match row.side {
+            Some(side) => format!("{measure} {component} across the {}", side.word()),
+            None => format!("{measure} {component} over all points"),
+        },
     }
 }
 
@@ -192,6 +224,8 @@ mod tests {
             column: None,
             on: None,
             between: None,
+            tracer: None,
+            side: None,
             tolerance: 0.01,
             source: "a paper".into(),
         }
@@ -210,7 +244,7 @@ mod tests {
     fn flow() -> Snapshot {
         let position = jittered_cloud(20, 0.3, 2);
         let velocity = position.iter().map(|x| DVec2::new(4.0 * x.y * (1.0 - x.y), 0.0)).collect();
-        Snapshot { time: 1.0, pressure: vec![0.0; position.len()], position, velocity, derivatives: None }
+        Snapshot { time: 1.0, pressure: vec![0.0; position.len()], position, velocity, ..Snapshot::default() }
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::case::Component;
+use super::line::TEMPERATURE;
+use crate::case::{Component, Tracer};
 use crate::exact::Exact;
 use crate::known::Known;
 use crate::snapshot::{Derivatives, Snapshot};
@@ -30,12 +31,22 @@ impl FieldError {
                 let right: Vec<f64> = position.iter().map(|&place| exact.pressure(place, *time)).collect();
                 relative_to_means(pressure, &right)
             }
+            Component::Temperature => {
+                scalars(position, snapshot.carried(TEMPERATURE), &|place| exact.temperature(place, *time))
+            }
             _ => {
                 let right = position.iter().map(|&place| pick(exact.velocity(place, *time)));
                 velocity.iter().map(|&u| pick(u)).zip(right).collect()
             }
         };
         Self::of_pairs(&pairs)
+    }
+
+    /// The same of a tracer.
+    pub fn of_tracer(snapshot: &Snapshot, exact: &Exact, tracer: &Tracer) -> Self {
+        let Snapshot { time, position, .. } = snapshot;
+        let right = |place| exact.tracer(tracer, place, *time);
+        Self::of_pairs(&scalars(position, snapshot.carried(&tracer.name), &right))
     }
 
     /// The same of what a problem without time gives, against the known field.
@@ -67,6 +78,13 @@ impl FieldError {
         };
         Self { difference: rms(&|(found, right)| *found - *right), exact: rms(&|(_, right)| *right) }
     }
+}
+
+/// A carried field beside the exact one; what is not known is no number.
+fn scalars(position: &[DVec2], found: &[f64], right: &dyn Fn(DVec2) -> Option<f64>) -> Vec<(DVec2, DVec2)> {
+    let scalar = |value: f64| DVec2::new(value, 0.0);
+    let pair = |(&place, &value): (&DVec2, &f64)| (scalar(value), scalar(right(place).unwrap_or(f64::NAN)));
+    position.iter().zip(found).map(pair).collect()
 }
 
 /// Two scalar fields, each less its mean over the points.

@@ -9,6 +9,8 @@ use super::{MeasureError, Sampler};
 use crate::case::{Component, Domain, Line, Measure};
 use crate::snapshot::Snapshot;
 
+/// What the temperature is called in a snapshot.
+pub const TEMPERATURE: &str = "temperature";
 /// Samples a spacing when an extreme is sought.
 const SAMPLES_PER_SPACING: f64 = 8.0;
 
@@ -48,13 +50,20 @@ impl<'a> LineMeasure<'a> {
             Component::U => snapshot.velocity.iter().map(|u| u.x).collect(),
             Component::V => snapshot.velocity.iter().map(|u| u.y).collect(),
             Component::P => Cow::Borrowed(&snapshot.pressure),
+            Component::Temperature => Cow::Borrowed(snapshot.carried(TEMPERATURE)),
             // Both at once: how fast.
             Component::Velocity => snapshot.velocity.iter().map(|u| u.length()).collect(),
-            // No problem that has them has a line.
-            Component::Gradient | Component::Laplacian | Component::X | Component::Y => Cow::Borrowed(&[]),
+            // Nothing measures them along a line.
+            Component::Tracer | Component::Gradient | Component::Laplacian | Component::X | Component::Y => {
+                Cow::Borrowed(&[])
+            }
         };
         if field.len() != sampler.points() {
-            let name = if component == Component::P { "pressure" } else { "velocity" };
+            let name = match component {
+                Component::P => "pressure",
+                Component::Temperature => TEMPERATURE,
+                _ => "velocity",
+            };
             return Err(MeasureError::Length { field: name, found: field.len(), points: sampler.points() });
         }
         let length = match line {
@@ -145,7 +154,7 @@ mod tests {
         let position = jittered_cloud(n, 0.4, 11);
         let velocity = position.iter().map(|x| DVec2::new((4.0 * x.y).sin(), (x.x - 0.31) * (x.x - 0.31))).collect();
         let pressure = position.iter().map(|x| 7.0 + x.x - 2.0 * x.y).collect();
-        Snapshot { time: 0.0, position, velocity, pressure, derivatives: None }
+        Snapshot { time: 0.0, position, velocity, pressure, ..Snapshot::default() }
     }
 
     const DOMAIN: Domain = Domain { width: 1.0, height: 1.0, periodic: Axes::None };

@@ -7,8 +7,10 @@ mod field;
 mod fit;
 mod images;
 mod line;
+mod loss;
 mod probe;
 mod sampler;
+mod slope;
 
 pub use crate::case::Profile;
 pub use cells::CellList;

@@ -15,11 +15,11 @@ pub enum OutputError {
     #[error("{} is not a folder", .0.display())]
     NotAFolder(PathBuf),
     #[error("{field} of point {point} is {value}: nothing is written that is not a finite number")]
-    PointNotFinite { field: &'static str, point: usize, value: f64 },
+    PointNotFinite { field: String, point: usize, value: f64 },
     #[error("{field} is {value}: nothing is written that is not a finite number")]
     NotFinite { field: String, value: f64 },
     #[error("{field} has {found} values for {points} points")]
-    Length { field: &'static str, found: usize, points: usize },
+    Length { field: String, found: usize, points: usize },
     #[error("{}, line {line}: {what}", path.display())]
     Csv { path: PathBuf, line: usize, what: String },
     #[error("{}: {source}", path.display())]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::OutputError;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "points.csv",
     "points.vtu",
     "diagnostics.csv",
@@ -15,9 +15,13 @@ const FILES: [&str; 9] = [
     "pressure.png",
     "speed.png",
     "centreline.png",
+    "temperature.png",
     "gradient.png",
     "laplacian.png",
 ];
+
+/// What the names of pictures of tracers begin with.
+const TRACER: &str = "tracer_";
 
 /// Where a run's files lie.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,7 +41,10 @@ impl RunFolder {
         fs::create_dir_all(path).map_err(OutputError::io(path))?;
         let folder = Self { path: path.to_owned() };
         if force {
-            for name in FILES {
+            let entries = fs::read_dir(path).map_err(OutputError::io(path))?;
+            let tracers = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+            let tracers = tracers.filter(|name| name.starts_with(TRACER) && name.ends_with(".png"));
+            for name in FILES.map(str::to_owned).into_iter().chain(tracers) {
                 let file = path.join(name);
                 match fs::remove_file(&file) {
                     Err(error) if error.kind() != ErrorKind::NotFound => return Err(OutputError::io(&file)(error)),
@@ -87,6 +94,14 @@ impl RunFolder {
 
     pub fn speed_picture(&self) -> PathBuf {
         self.path.join("speed.png")
+    }
+
+    /// Of a field that the flow carries.
+    pub fn carried_picture(&self, name: &str) -> PathBuf {
+        match name {
+            "temperature" => self.path.join("temperature.png"),
+            _ => self.path.join(format!("{TRACER}{name}.png")),
+        }
     }
 
     pub fn gradient_picture(&self) -> PathBuf {

@@ -1,4 +1,4 @@
-//! points.csv: every point of a snapshot, one a line, `x,y,u,v,p` in m, m/s and Pa (of derivatives of a known field
+//! points.csv: every point of a snapshot, one a line, `x,y,u,v,p` in m, m/s and Pa, then what the flow carries (of derivatives of a known field
 //! `x,y,value,gradient_x,gradient_y,laplacian`), each number in the shortest form that reads back to the same bits.
 
 use std::fs::File;
@@ -38,38 +38,43 @@ pub fn write(path: &Path, snapshot: &Snapshot) -> Result<(), OutputError> {
 /// Reads what [`write`] wrote of a flow; the file does not hold the time, s.
 ///
 /// # Errors
-/// Another header, a row without five finite numbers, errors of the file system.
+/// Another header, a row without a finite number for each column, errors of the file system.
 pub fn read(path: &Path, time: f64) -> Result<Snapshot, OutputError> {
     let fail = |line: usize, what: String| OutputError::Csv { path: path.to_owned(), line, what };
     let mut lines = BufReader::new(File::open(path).map_err(OutputError::io(path))?).lines();
     let header = lines.next().transpose().map_err(OutputError::io(path))?.unwrap_or_default();
-    if header.trim_end() != HEADER {
-        return Err(fail(1, format!("the header is `{header}`, and must be `{HEADER}`")));
-    }
+    let names: Vec<&str> = header.trim_end().split(',').collect();
+    let carried = header.trim_end().strip_prefix(HEADER).filter(|rest| rest.is_empty() || rest.starts_with(','));
+    let Some(carried) = carried.map(|rest| rest.split(',').skip(1)) else {
+        return Err(fail(1, format!("the header is `{header}`, and must begin with `{HEADER}`")));
+    };
     let mut snapshot = Snapshot { time, ..Snapshot::default() };
+    snapshot.carried = carried.map(|name| (name.to_owned(), Vec::new())).collect();
     for (index, row) in lines.enumerate() {
         let row = row.map_err(OutputError::io(path))?;
-        let [x, y, u, v, p] = numbers(&row).map_err(|what| fail(index + 2, what))?;
-        snapshot.position.push(DVec2::new(x, y));
-        snapshot.velocity.push(DVec2::new(u, v));
-        snapshot.pressure.push(p);
+        let numbers = numbers(&row, &names).map_err(|what| fail(index + 2, what))?;
+        snapshot.position.push(DVec2::new(numbers[0], numbers[1]));
+        snapshot.velocity.push(DVec2::new(numbers[2], numbers[3]));
+        snapshot.pressure.push(numbers[4]);
+        snapshot.carried.iter_mut().zip(&numbers[5..]).for_each(|((_, values), &value)| values.push(value));
     }
     Ok(snapshot)
 }
 
-fn numbers(row: &str) -> Result<[f64; 5], String> {
-    let mut numbers = [0.0f64; 5];
+fn numbers(row: &str, names: &[&str]) -> Result<Vec<f64>, String> {
+    let mut numbers = Vec::with_capacity(names.len());
     let mut cells = row.trim_end().split(',');
-    for (number, name) in numbers.iter_mut().zip(HEADER.split(',')) {
+    for name in names {
         let cell = cells.next().ok_or_else(|| format!("{name} is missing"))?;
-        *number = cell.parse().map_err(|_| format!("{name} is `{cell}`, which is not a number"))?;
+        let number: f64 = cell.parse().map_err(|_| format!("{name} is `{cell}`, which is not a number"))?;
         if !number.is_finite() {
             return Err(format!("{name} is `{cell}`, which is not finite"));
         }
+        numbers.push(number);
     }
     match cells.next() {
         None => Ok(numbers),
-        Some(cell) => Err(format!("`{cell}` follows the five columns")),
+        Some(cell) => Err(format!("`{cell}` follows the {} columns", names.len())),
     }
 }
 
@@ -85,7 +90,8 @@ pub(super) mod tests {
             position: (0..20).map(pair).collect(),
             velocity: (3..23).map(pair).collect(),
             pressure: (5..25).map(|k| numbers[k % 8]).collect(),
-            derivatives: None,
+            carried: vec![("temperature".to_owned(), (2..22).map(|k| numbers[k % 8]).collect())],
+            ..Snapshot::default()
         }
     }
 
@@ -97,7 +103,7 @@ pub(super) mod tests {
         let back = read(&path, 2.5).unwrap();
         assert_eq!(back, awkward());
         assert!(back.position[1].x.is_sign_negative(), "-0.0 keeps its sign");
-        assert!(std::fs::read_to_string(&path).unwrap().starts_with("x,y,u,v,p\n0.30000000000000004,"));
+        assert!(std::fs::read_to_string(&path).unwrap().starts_with("x,y,u,v,p,temperature\n0.30000000000000004,"));
     }
 
     #[test]
@@ -113,7 +119,7 @@ pub(super) mod tests {
             ("1,2,3,4,NaN", "p is `NaN`, which is not finite"),
             ("1,2,x,4,5", "u is `x`, which is not a number"),
             ("1,2,3", "v is missing"),
-            ("1,2,3,4,5,6", "`6` follows the five columns"),
+            ("1,2,3,4,5,6", "`6` follows the 5 columns"),
         ] {
             std::fs::write(&path, format!("x,y,u,v,p\n0,0,0,0,0\n{row}\n")).unwrap();
             let error = read(&path, 0.0).unwrap_err().to_string();

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{BLOCK, Sizes};
+use super::{BLOCK, Carried, Sizes};
 use crate::cpu::operations::moments::entries;
 
 /// Which places of the points an array or an operation belongs to.
@@ -53,6 +53,15 @@ pub enum Buffer {
     FluxCount,
     /// Volume flux out of every cell through the walls that it has a piece of, m^2/s. Through-flow alone.
     WallFlux,
+    /// Points whose velocities make up that of a boundary point which follows the fluid, blocked, `open_capacity` slots; unused slots
+    /// hold the point itself. Slip sides and outlets alone.
+    OpenPoints,
+    /// Their shares, no unit, blocked; zero in unused slots.
+    OpenRow,
+    /// Slots of `OpenPoints` in use: none at any other point.
+    OpenCount,
+    /// What is taken out of that velocity: the normal of a slip side, else zero; interleaved.
+    OpenNormal,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
     /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
@@ -77,6 +86,20 @@ pub enum Buffer {
     PressureKick,
     /// The scaled coefficients of the fit of u, five for order 2, then of v, m/s, blocked.
     Coefficients,
+    /// A scalar field that the flow carries along, in its own unit.
+    Carried(Carried),
+    /// How fast its neighbours' values reach a point, `D / V_i`, 1/(m^2 s); 0 where the value is held.
+    Reach(Carried),
+    /// What the heat flux through the walls adds to the temperature of the cells there, K/s. Prescribed fluxes alone.
+    HeatSupply,
+    /// Where the fluid that arrives at each point came from, m; interleaved.
+    Departure,
+    /// The point nearest to there.
+    DepartureNearest,
+    /// The value of a carried field at every point, then the scaled coefficients of its fit, blocked; of one field after another.
+    ScalarFit,
+    /// A carried field in the middle of a step of its diffusion; of one field after another.
+    ScalarMiddle,
     /// Pressure `p`, Pa.
     Pressure,
     /// Right side of the pressure equation.
@@ -129,6 +152,10 @@ impl Buffer {
             Buffer::FluxRow => ("flux_row", None),
             Buffer::FluxCount => ("flux_count", None),
             Buffer::WallFlux => ("wall_flux", None),
+            Buffer::OpenPoints => ("open_points", None),
+            Buffer::OpenRow => ("open_row", None),
+            Buffer::OpenCount => ("open_count", None),
+            Buffer::OpenNormal => ("open_normal", None),
             Buffer::Normal => ("normal", None),
             Buffer::LaplacianRow => ("laplacian_row", None),
             Buffer::GradientRow => ("gradient_row", None),
@@ -141,6 +168,13 @@ impl Buffer {
             Buffer::Reflected => ("reflected", None),
             Buffer::PressureKick => ("pressure_kick", None),
             Buffer::Coefficients => ("coefficients", None),
+            Buffer::Carried(carried) => return carried.name(),
+            Buffer::Reach(carried) => return format!("{}_reach", carried.name()),
+            Buffer::HeatSupply => ("heat_supply", None),
+            Buffer::Departure => ("departure", None),
+            Buffer::DepartureNearest => ("departure_nearest", None),
+            Buffer::ScalarFit => ("scalar_fit", None),
+            Buffer::ScalarMiddle => ("scalar_middle", None),
             Buffer::Pressure => ("pressure", None),
             Buffer::Source => ("source", None),
             Buffer::Residual => ("residual", None),
@@ -172,7 +206,10 @@ impl Buffer {
             | Buffer::FaceNeighbours
             | Buffer::FaceCount
             | Buffer::FluxPoints
-            | Buffer::FluxCount => Element::Index,
+            | Buffer::FluxCount
+            | Buffer::OpenPoints
+            | Buffer::OpenCount
+            | Buffer::DepartureNearest => Element::Index,
             _ => Element::Real,
         }
     }
@@ -189,14 +226,18 @@ impl Buffer {
             | Buffer::Reflected
             | Buffer::PressureKick
             | Buffer::Reported
+            | Buffer::Departure
+            | Buffer::OpenNormal
             | Buffer::FieldGradient => 2,
             Buffer::Neighbours(_) | Buffer::LaplacianRow | Buffer::MatrixRow => sizes.capacity,
             Buffer::GradientRow => 2 * sizes.capacity,
             Buffer::FaceNeighbours | Buffer::FaceWeight => sizes.face_capacity,
+            Buffer::OpenPoints | Buffer::OpenRow => sizes.open_capacity,
             Buffer::FluxPoints => sizes.flux_capacity,
             Buffer::FluxRow => 2 * sizes.flux_capacity,
             Buffer::Factor(_) => entries(sizes.coefficients),
             Buffer::Coefficients => 2 * sizes.coefficients,
+            Buffer::ScalarFit => 1 + sizes.coefficients,
             _ => 1,
         })
     }

@@ -5,27 +5,34 @@
 //! ```text
 //! drift   fit_velocity        fits of the velocity u' that moves the points
 //!         remap_departure     u(r0) = u'(where the fluid came from)            values stand on the points again
-//! kick    viscosity           kick = (dt/2) nu lap u
+//! kick    gravity             kick = (dt/2) g
+//!         viscosity           kick += (dt/2) nu lap u
 //!         estimate_middle     u_m ~ u + kick - last pressure kick
-//!         viscosity           kick = (dt/2) nu lap u_m
+//!         gravity             kick = (dt/2) g
+//!         viscosity           kick += (dt/2) nu lap u_m
 //!         predict             u* = u + kick
 //!         divergence          b = -(rho / (dt/2)) V div u*
 //!         conjugate_gradient  K p = b                                          recomputed residual below the tolerance
 //!         correct_by_fit      u_m = u* - (dt/2 rho) grad p                     div u_m = 0: what is reported
+//!         hold_walls          u_m = u_wall on walls                                gravity reached them
 //!         reflect             u' = u_m + kick - (dt/2 rho) grad p
 //! ```
 //!
 //! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
 
 mod buffer;
+mod carried;
+mod effect;
 mod grid;
 mod operation;
 mod plan;
 mod rung;
 
 pub use buffer::{Buffer, Element, Points};
+pub use carried::Carried;
+pub use effect::Effect;
 pub use grid::Grid;
-pub use operation::{Operation, Stage};
+pub use operation::{Kicked, Operation, Stage};
 pub use plan::{Plan, Sizes};
 pub use rung::Rung;
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Points};
+use super::{Buffer, Carried, Points};
 
 /// Which velocity a force is taken of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -19,6 +19,26 @@ impl Stage {
         match self {
             Stage::Start => Buffer::Velocity,
             Stage::Middle => Buffer::Projected,
+        }
+    }
+}
+
+/// Which velocity it is, seen from the kick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Kicked {
+    Before,
+    /// In its middle: what is reported.
+    Within,
+    After,
+}
+
+impl Kicked {
+    /// Where it stands.
+    pub fn velocity(self) -> Buffer {
+        match self {
+            Kicked::Before => Buffer::Velocity,
+            Kicked::Within => Buffer::Projected,
+            Kicked::After => Buffer::Reflected,
         }
     }
 }
@@ -55,6 +75,18 @@ pub enum Operation {
     MovePoints,
     /// Evaluates the fit of each moved point at its standing place (the paper's section 5).
     RemapForward,
+    /// Finds where the fluid at every point came from, and the point nearest to there.
+    FindDepartures,
+    /// Evaluates the fits of the velocity there: as `RemapDeparture`, beside fields that the flow carries.
+    CarryVelocity,
+    /// Fits a field that the flow carries.
+    FitScalar(Carried),
+    /// Evaluates the fits of the field where the fluid came from.
+    CarryScalar(Carried),
+    /// Lets a carried field diffuse through the faces of the cells for half a step.
+    Diffuse(Carried, Stage),
+    /// Adds the heat that flows in through the walls to what `Diffuse` of the temperature gave.
+    HeatWalls(Stage),
     /// No advection: the velocity after the forces begins the next step.
     KeepVelocity,
 
@@ -62,6 +94,10 @@ pub enum Operation {
     ClearKick,
     /// Estimates the velocity in the middle of the kick, `u + kick - pressure kick`, then forgets the kick.
     EstimateMiddle,
+    /// Adds `dt g` to the kick.
+    Gravity,
+    /// Adds `-dt beta (T - T0) g` to the kick.
+    Buoyancy,
     /// Adds `dt nu lap u` to the kick.
     Viscosity(Stage),
     /// `u* = u + kick`.
@@ -86,6 +122,8 @@ pub enum Operation {
     CorrectByAdjoint,
     /// Gives the walls their velocity back.
     HoldWalls,
+    /// Gives the points of slip sides and outlets the velocity of the fluid before them.
+    OpenSides(Kicked),
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
 
@@ -115,9 +153,17 @@ impl Operation {
             Operation::RemapDeparture => "remap_departure",
             Operation::MovePoints => "move_points",
             Operation::RemapForward => "remap_forward",
+            Operation::FindDepartures => "find_departures",
+            Operation::CarryVelocity => "carry_velocity",
+            Operation::FitScalar(_) => "fit_scalar",
+            Operation::CarryScalar(_) => "carry_scalar",
+            Operation::Diffuse(..) => "diffuse",
+            Operation::HeatWalls(_) => "heat_walls",
             Operation::KeepVelocity => "keep_velocity",
             Operation::ClearKick => "clear_kick",
             Operation::EstimateMiddle => "estimate_middle",
+            Operation::Gravity => "gravity",
+            Operation::Buoyancy => "buoyancy",
             Operation::Viscosity(_) => "viscosity",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
@@ -130,6 +176,7 @@ impl Operation {
             Operation::CorrectByFit => "correct_by_fit",
             Operation::CorrectByAdjoint => "correct_by_adjoint",
             Operation::HoldWalls => "hold_walls",
+            Operation::OpenSides(_) => "open_sides",
             Operation::Reflect => "reflect",
             Operation::Average => "average",
             Operation::Gradient => "gradient",
@@ -174,12 +221,36 @@ impl Operation {
                 let [around, around_count] = plan.around();
                 vec![Position(standing), around, around_count, Support(standing), plan.moving(), Coefficients]
             }
+            Operation::FindDepartures => {
+                let [around, around_count] = plan.around();
+                let fits = [Position(standing), around, around_count, Support(standing), plan.moving(), Coefficients];
+                with(fits.to_vec(), &[Normal])
+            }
+            Operation::CarryVelocity => {
+                let departures = [Departure, DepartureNearest];
+                with(departures.to_vec(), &[Position(standing), Support(standing), plan.moving(), Coefficients])
+            }
+            Operation::FitScalar(carried) => with(fits(standing), &[Carried(carried)]),
+            Operation::CarryScalar(carried) => {
+                let mut list = vec![Departure, DepartureNearest, Position(standing), Support(standing), ScalarFit];
+                if carried == super::Carried::Temperature {
+                    list.push(Reach(carried));
+                }
+                list
+            }
+            Operation::Diffuse(carried, stage) => {
+                let mut list = with(faces.to_vec(), &[Reach(carried)]);
+                list.push(if stage == Stage::Start { Carried(carried) } else { ScalarMiddle });
+                list
+            }
+            Operation::HeatWalls(_) => vec![HeatSupply],
             Operation::MovePoints => vec![Position(standing), plan.moving()],
             Operation::RemapForward => {
                 vec![Position(standing), Position(Points::Moved), Support(Points::Moved), plan.moving(), Coefficients]
             }
             Operation::KeepVelocity => vec![plan.moving()],
-            Operation::ClearKick => vec![],
+            Operation::ClearKick | Operation::Gravity => vec![],
+            Operation::Buoyancy => vec![Carried(super::Carried::Temperature)],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Predict => vec![Velocity, Kick],
@@ -193,6 +264,7 @@ impl Operation {
             Operation::CorrectByFit => with(sums(GradientRow), &[Pressure]),
             Operation::CorrectByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, Pressure]),
             Operation::HoldWalls => vec![Velocity],
+            Operation::OpenSides(_) => vec![OpenPoints, OpenRow, OpenCount, OpenNormal],
             Operation::Reflect => vec![Velocity, Projected, Kick],
             Operation::Average => with(means, &[Field]),
             Operation::Gradient => with(sums(GradientRow), &[Field]),
@@ -215,9 +287,17 @@ impl Operation {
             Operation::AssembleGradient | Operation::AssembleIntegralGradient => vec![GradientRow],
             Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
             Operation::FitVelocity(_) => vec![Coefficients],
-            Operation::RemapDeparture | Operation::RemapForward | Operation::KeepVelocity => vec![Velocity],
+            Operation::RemapDeparture
+            | Operation::RemapForward
+            | Operation::CarryVelocity
+            | Operation::KeepVelocity => vec![Velocity],
+            Operation::FindDepartures => vec![Departure, DepartureNearest],
+            Operation::FitScalar(_) => vec![ScalarFit],
+            Operation::CarryScalar(carried) | Operation::Diffuse(carried, Stage::Middle) => vec![Carried(carried)],
+            Operation::Diffuse(_, Stage::Start) | Operation::HeatWalls(Stage::Start) => vec![ScalarMiddle],
+            Operation::HeatWalls(Stage::Middle) => vec![Carried(super::Carried::Temperature)],
             Operation::MovePoints => vec![Position(Points::Moved)],
-            Operation::ClearKick | Operation::Viscosity(_) => vec![Kick],
+            Operation::ClearKick | Operation::Gravity | Operation::Buoyancy | Operation::Viscosity(_) => vec![Kick],
             Operation::EstimateMiddle => vec![Projected, Kick],
             Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
                 vec![Projected]
@@ -231,6 +311,7 @@ impl Operation {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]
             }
             Operation::DirectSolve => vec![Pressure],
+            Operation::OpenSides(kicked) => vec![kicked.velocity()],
             Operation::Reflect => vec![PressureKick, Reflected],
             Operation::Average => vec![FieldAverage],
             Operation::Gradient => vec![FieldGradient],

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Buffer, Element, Operation, Points, Stage};
-use crate::case::{self, Axes, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
+use super::{Buffer, Carried, Element, Kicked, Operation, Points, Stage};
+use crate::case::{self, Case, Operators, PressureForm, Problem, Remap, Solver, Splitting};
 
 /// How many of everything there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -16,6 +16,8 @@ pub struct Sizes {
     pub face_capacity: usize,
     /// Most points that the flux out of a cell is made of.
     pub flux_capacity: usize,
+    /// Most points that the velocity of a point of a slip side or an outlet is made of.
+    pub open_capacity: usize,
     /// Cells of the neighbour search.
     pub cells: usize,
     /// Coefficients of a fit.
@@ -27,6 +29,8 @@ pub struct Sizes {
 pub struct Plan {
     /// Done once, in order.
     pub setup: Vec<Operation>,
+    /// Done whenever the length of a step changes: what of the drift depends on nothing else. Of a prescribed velocity alone.
+    pub on_step: Vec<Operation>,
     /// The drift: carries the velocity along the flow. Empty without advection but for `KeepVelocity`.
     pub drift: Vec<Operation>,
     /// The kick: forces, pressure, correction.
@@ -36,6 +40,10 @@ pub struct Plan {
     pub splitting: Splitting,
     /// Fluid comes and goes through the sides.
     pub through_flow: bool,
+    /// Fluid leaves through some side, where the pressure is 0.
+    pub outlets: bool,
+    /// Scalar fields that the flow carries.
+    pub carried: Vec<Carried>,
     /// True of a flow in time; else `kick` is all there is to do, once.
     pub flows: bool,
 }
@@ -101,11 +109,14 @@ impl Plan {
         }
         Self {
             setup,
+            on_step: Vec::new(),
             drift: Vec::new(),
             kick,
             form: None,
             splitting: Splitting::Projection,
             through_flow: false,
+            outlets: false,
+            carried: Vec::new(),
             flows: false,
         }
     }
@@ -122,11 +133,14 @@ impl Plan {
         let kick = vec![solve_by(pressure.solver())];
         Self {
             setup,
+            on_step: Vec::new(),
             drift: Vec::new(),
             kick,
             form: Some(pressure.form),
             splitting: Splitting::Projection,
             through_flow: false,
+            outlets: false,
+            carried: Vec::new(),
             flows: false,
         }
     }
@@ -138,8 +152,7 @@ impl Plan {
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form == PressureForm::Collocated);
-        let through_flow =
-            (case.exact.is_some() && case.domain.periodic != Axes::Both) || case.boundaries.let_through();
+        let through_flow = case.flows_through();
         let standing = Points::Standing;
         let fits_faces =
             effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);
@@ -152,9 +165,30 @@ impl Plan {
         // What carries the velocity evaluates fits, and so do reports where no cells measure the divergence.
         let cells = effects.pressure.is_some() && !collocated;
         let mut setup = rows.setup(effects.advection.is_some() || !cells);
-        let mut drift = Vec::new();
+        let (carried, diffusing) = (case.carried(), case.diffusing());
+        // Half a step before the drift and half a step after: what is reported is of the time of the velocity.
+        let mut diffusion = Vec::new();
+        for &field in &diffusing {
+            for stage in [Stage::Start, Stage::Middle] {
+                diffusion.push(Diffuse(field, stage));
+                if field == Carried::Temperature && case.has_heat_flux() {
+                    diffusion.push(HeatWalls(stage));
+                }
+            }
+        }
+        let (mut on_step, mut drift) = (Vec::new(), diffusion.clone());
         match effects.advection.as_ref().map(|advection| advection.remap) {
-            None => drift.push(KeepVelocity),
+            None if case.velocity_changes() => drift.push(KeepVelocity),
+            None => {}
+            Some(_) if !carried.is_empty() => {
+                if case.velocity_changes() {
+                    drift.extend([FitVelocity(standing), FindDepartures, CarryVelocity]);
+                } else {
+                    setup.push(FitVelocity(standing));
+                    on_step.push(FindDepartures);
+                }
+                drift.extend(carried.iter().flat_map(|&field| [FitScalar(field), CarryScalar(field)]));
+            }
             Some(Remap::Departure) => drift.extend([FitVelocity(standing), RemapDeparture]),
             Some(Remap::Forward) => {
                 let moved = Points::Moved;
@@ -163,18 +197,41 @@ impl Plan {
                 drift.extend([FitVelocity(moved), RemapForward]);
             }
         }
-        let mut kick = vec![ClearKick];
+        let open = case.has_open_sides() && case.velocity_changes();
+        if open && effects.advection.is_some() {
+            drift.push(OpenSides(Kicked::Before));
+        }
+        // Forces that reach the walls, whose velocity is then put back.
+        let pushes_walls = collocated || effects.gravity.is_some();
+        let mut weight = Vec::new();
+        if effects.gravity.is_some() {
+            weight.push(Gravity);
+        }
+        if effects.buoyancy.is_some() {
+            weight.push(Buoyancy);
+        }
+        let mut kick = diffusion;
+        if case.velocity_changes() {
+            kick.push(ClearKick);
+        }
+        kick.extend(&weight);
         if effects.viscosity.is_some() {
             kick.push(Viscosity(Stage::Start));
             if reflects {
                 kick.push(EstimateMiddle);
-                if collocated {
+                if pushes_walls {
                     kick.push(HoldWalls);
                 }
+                if open {
+                    kick.push(OpenSides(Kicked::Within));
+                }
+                kick.extend(&weight);
                 kick.push(Viscosity(Stage::Middle));
             }
         }
-        kick.push(Predict);
+        if case.velocity_changes() {
+            kick.push(Predict);
+        }
         if let Some(pressure) = &effects.pressure {
             kick.push(match pressure.form {
                 PressureForm::Conservative if fits_faces => DivergenceByFit,
@@ -192,27 +249,36 @@ impl Plan {
                 case::Gradient::Fit => CorrectByFit,
                 case::Gradient::Adjoint => CorrectByAdjoint,
             });
-            if collocated {
-                kick.push(HoldWalls);
-            }
+        }
+        if pushes_walls {
+            kick.push(HoldWalls);
+        }
+        if open {
+            kick.push(OpenSides(Kicked::Within));
         }
         if reflects {
             kick.push(Reflect);
+            if open {
+                kick.push(OpenSides(Kicked::After));
+            }
         }
         Self {
             setup,
+            on_step,
             drift,
             kick,
             form: effects.pressure.as_ref().map(|pressure| pressure.form),
             splitting,
             through_flow,
+            outlets: case.has_side(case::SideKind::Outlet),
+            carried,
             flows: true,
         }
     }
 
     /// Every operation, setup first.
     pub fn operations(&self) -> impl Iterator<Item = Operation> + '_ {
-        self.setup.iter().chain(&self.drift).chain(&self.kick).copied()
+        self.setup.iter().chain(&self.on_step).chain(&self.drift).chain(&self.kick).copied()
     }
 
     /// The velocity that moves the points.
@@ -237,11 +303,18 @@ impl Plan {
         }
     }
 
+    /// True where some operation goes through the faces of the Voronoi cells.
+    pub fn has_faces(&self) -> bool {
+        let diffuses = |operation: &Operation| matches!(operation, Operation::Diffuse(..));
+        self.form == Some(PressureForm::Conservative) || self.kick.iter().any(diffuses)
+    }
+
     /// The lists of points around each point that the search for the nearest point walks along: those across the faces
     /// where there are faces, else all neighbours; and how many of each list are in use.
     pub fn around(&self) -> [Buffer; 2] {
         match self.form {
-            Some(PressureForm::Conservative) => [Buffer::FaceNeighbours, Buffer::FaceCount],
+            // The cells of outlets have no faces.
+            Some(PressureForm::Conservative) if !self.outlets => [Buffer::FaceNeighbours, Buffer::FaceCount],
             _ => [Buffer::Neighbours(Points::Standing), Buffer::NeighbourCount(Points::Standing)],
         }
     }
@@ -249,7 +322,7 @@ impl Plan {
     /// Slots of those lists.
     pub fn around_capacity(&self, sizes: &Sizes) -> usize {
         match self.form {
-            Some(PressureForm::Conservative) => sizes.face_capacity,
+            Some(PressureForm::Conservative) if !self.outlets => sizes.face_capacity,
             _ => sizes.capacity,
         }
     }

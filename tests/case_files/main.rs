@@ -190,8 +190,8 @@ fn every_shipped_case_loads_and_finds_its_profiles() {
         let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let profiles: Vec<_> = case.expect.values().filter_map(|expectation| expectation.profile.as_ref()).collect();
         // Problems without time are held to known fields, exact flows to the whole flow, obstacles to their forces.
-        let published = case.problem() == Problem::Flow && case.exact.is_none() && case.obstacles.is_empty();
-        assert_eq!(published, !profiles.is_empty(), "{}", path.display());
+        let published = case.problem() == Problem::Flow && case.exact.is_none();
+        assert!(!case.expect.is_empty() && (published || profiles.is_empty()), "{}", path.display());
         assert!(profiles.iter().all(|profile| profile.is_file()), "{profiles:?}");
     }
 }
@@ -218,11 +218,135 @@ fn what_does_not_go_with_an_exact_solution_is_named() {
             "prescribes the velocity on all four sides: it needs domain.periodic = \"none\"",
         ),
         (&["expect.velocity.line={ x = 0.5 }"], "belongs to the other measures: an error is over all points"),
-        (&["expect.velocity.value=1.0"], "expect.velocity.value = 1.0: belongs to the measures minimum and maximum"),
-        (&["expect.velocity.profile=a.csv"], "belongs to the measure profile, and measure is \"error\""),
+        (
+            &["expect.velocity.value=1.0"],
+            "expect.velocity.value = 1.0: belongs to the measures minimum, maximum and slope",
+        ),
+        (&["expect.velocity.profile=a.csv"], "belongs to the measure profile, which this is not"),
     ] {
         let message = load(overrides).expect_err(overrides[0]);
         assert!(message.contains(expected), "\n  {overrides:?} says\n  {message:?}, not\n  {expected:?}");
+    }
+}
+
+/// Heat, buoyancy and tracers, and what is senseless beside them.
+#[test]
+fn what_does_not_go_with_heat_and_tracers_is_named() {
+    let text = "title = \"Warm\"\ndomain = { width = 1.0, height = 1.0 }\nfluid.density = 1.0\n\
+                cloud = { arrangement = \"regular\", spacing = 0.05 }\ntime.end = 1.0\n";
+    let tracer = "effects.tracers=[{ name = 'c', shape = 'disc', centre = [0.5, 0.5], radius = 0.2 }]";
+    let heat = "effects.heat.diffusivity=0.1";
+    for (overrides, expected) in [
+        (
+            &[heat, "effects.buoyancy.expansion=0.1"][..],
+            "effects.buoyancy: is the weight of warm fluid, and the table effects.gravity",
+        ),
+        (
+            &["effects.gravity.acceleration=[0.0, -1.0]", "effects.buoyancy.expansion=0.1"],
+            "effects.buoyancy: is the weight of warm fluid, and the table effects.heat is absent",
+        ),
+        (
+            &["effects.advection.remap=departure", "boundaries.left.temperature=1.0"],
+            "boundaries.left.temperature: there is no heat",
+        ),
+        (
+            &[heat, "boundaries.left.temperature=1.0", "boundaries.left.heat_flux=1.0"],
+            "boundaries.left.heat_flux: the side is held at boundaries",
+        ),
+        (
+            &[heat, "domain.periodic=x", "boundaries.left.heat_flux=1.0"],
+            "boundaries.left.heat_flux: the domain repeats there",
+        ),
+        (
+            &["effects.pressure.form=conservative", "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.0] }"],
+            "boundaries.left.kind: needs another side",
+        ),
+        (
+            &[
+                "effects.pressure.form=conservative",
+                "boundaries.left={ kind = 'inlet', velocity = [-1.0, 0.0] }",
+                "boundaries.right.kind=outlet",
+            ],
+            "boundaries.left.kind: needs boundaries.*.velocity of this side",
+        ),
+        (&[heat, "boundaries.right.kind=outlet"], "boundaries.right.kind: needs the pressure"),
+        (
+            &["effects.pressure.form=collocated", "boundaries.right.kind=outlet"],
+            "boundaries.right.kind: belongs to the conservative form",
+        ),
+        (
+            &["effects.pressure.form=conservative", "domain.periodic=x", "boundaries.right.kind=slip"],
+            "boundaries.right.kind: the domain repeats",
+        ),
+        (
+            &["effects.pressure.form=conservative", "boundaries.right={ kind = 'slip', velocity = [0.0, 1.0] }"],
+            "boundaries.right.kind: takes its velocity from the fluid",
+        ),
+        (&["effects.heat.diffusivity=0.0"], "effects.heat.diffusivity: must be a number above 0"),
+        (&[heat, "effects.advection.remap=forward"], "effects.advection.remap: carries the velocity alone"),
+        (&[heat, "time.steady=0.1"], "time.steady: no effect changes the velocity"),
+        (&[tracer], "effects.tracers[0].diffusivity: nothing moves it"),
+        (
+            &[
+                "effects.advection.remap=departure",
+                "effects.tracers=[{ name = 'p', shape = 'disc', centre = [0.5, 0.5], radius = 0.2 }]",
+            ],
+            "effects.tracers[0].name: must be a name of letters",
+        ),
+        (
+            &[
+                "effects.advection.remap=departure",
+                "effects.tracers=[{ name = 'c', shape = 'box', centre = [0.5, 0.5], radius = 0.2 }]",
+            ],
+            "effects.tracers[0].radius: belongs to another shape",
+        ),
+        (
+            &[
+                "effects.advection.remap=departure",
+                "effects.tracers=[{ name = 'c', shape = 'box', centre = [0.5, 0.5] }]",
+            ],
+            "effects.tracers[0].size: it must be two lengths",
+        ),
+        (&["effects.gravity.acceleration=[0.0, 0.0]"], "effects.gravity.acceleration: must be two numbers"),
+        (
+            &[
+                tracer,
+                "effects.advection.remap=departure",
+                "effects.viscosity.kinematic=0.1",
+                "exact.solution=rotation",
+            ],
+            "exact.solution: prescribes the velocity",
+        ),
+        (
+            &["effects.advection.remap=departure", "exact.solution=rotation"],
+            "exact.solution: carries fields, and there is neither",
+        ),
+        (
+            &["effects.viscosity.kinematic=0.1", "domain.periodic=x", "exact.solution=couette"],
+            "exact.solution: is driven by boundaries",
+        ),
+        (
+            &["effects.viscosity.kinematic=0.1", "domain.periodic=x", "exact.solution=poiseuille"],
+            "exact.solution: is driven by effects.gravity",
+        ),
+        (&[heat, "exact.solution=conduction"], "exact.solution: needs boundaries.left.temperature"),
+        (
+            &[
+                heat,
+                "expect.a={ component = 'temperature', measure = 'slope', value = 1.0, tolerance = 0.1, source = 's' }",
+            ],
+            "expect.a.side: it must be",
+        ),
+        (
+            &[heat, "expect.a={ component = 'tracer', measure = 'loss', tracer = 'c', tolerance = 0.1, source = 's' }"],
+            "expect.a.tracer: must be the name of one of effects.tracers",
+        ),
+    ] {
+        let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+        let error = Case::from_text(text, Path::new("bad.toml"), &overrides).expect_err("a mistake").to_string();
+        let (key, words) = expected.split_once(": ").expect("a key and words");
+        assert!(error.contains(key) && error.contains(words), "{overrides:?}: {error}, not {expected}");
+        assert!(!error.contains('\n'), "{error}");
     }
 }
 

@@ -6,7 +6,7 @@ const CHANNEL: &str = r#"title = "Channel"
 domain = { width = 2.0, height = 1.0 }
 cloud = { arrangement = "relaxed", spacing = 0.05 }
 fluid = { density = 1.0 }
-boundaries = { left = { parabola = 1.0 }, right = { parabola = -1.0 } }
+boundaries = { left = { kind = "inlet", velocity = [1.0, 0.0] }, right = { kind = "outlet" } }
 effects = { viscosity = { kinematic = 0.01 }, pressure = {}, advection = {} }
 time = { end = 1.0 }
 "#;
@@ -88,12 +88,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("spacing = 0.02\n[[", "spacing = 0.06\n[[", "cloud.refine[0].spacing = 0.06: must be a length above 0 and at most cloud.spacing, m"),
     ("growth = 0.2", "growth = 0.5", "cloud.refine[1].growth = 0.5: must be a number above 0 and at most 0.3, m/m"),
     ("arrangement = \"relaxed\"", "arrangement = \"random\"", "cloud.arrangement = \"random\": belongs to relaxed points; with [[cloud.refine]] it must be \"relaxed\""),
-    ("left = { parabola = 1.0 }", "left = { parabola = 0.0 }", "boundaries.left.parabola = 0.0: must be a speed other than 0, m/s"),
-    ("right = { parabola = -1.0 }", "right = { parabola = -0.5 }", "boundaries.right.parabola = -0.5: must let out as much as comes in"),
-    ("right = { parabola = -1.0 }", "bottom = { parabola = -0.4 }", "boundaries.bottom.parabola = -0.4: must let out as much as comes in"),
-    ("left = { parabola = 1.0 }", "left = { parabola = 1.0, velocity = [0.0, 1.0] }", "boundaries.left.parabola = 1.0: has no wall that moves (velocity); leave one out"),
-    ("pressure = {}", "pressure = { form = \"collocated\" }", "boundaries.left.parabola = 1.0: needs effects.pressure, and in the conservative form"),
-    ("boundaries = { left = { parabola = 1.0 }, right = { parabola = -1.0 } }\neffects = { viscosity = { kinematic = 0.01 }, pressure = {},", "effects = { viscosity = { kinematic = 0.01 }, pressure = { form = \"collocated\" },", "effects.pressure = { form = \"collocated\" }: must be there and conservative with [[obstacles]]"),
+    ("boundaries = { left = { kind = \"inlet\", velocity = [1.0, 0.0] }, right = { kind = \"outlet\" } }\neffects = { viscosity = { kinematic = 0.01 }, pressure = {},", "effects = { viscosity = { kinematic = 0.01 }, pressure = { form = \"collocated\" },", "effects.pressure = { form = \"collocated\" }: must be there and conservative with [[obstacles]]"),
     ("advection = {}", "advection = { remap = \"forward\" }", "effects.advection.remap = \"forward\": must be \"departure\" with [[obstacles]]"),
     ("on = \"ball\"", "on = \"left\"", "expect.drag.on = \"left\": must be the name of an obstacle"),
     ("on = \"ball\"\n", "", "expect.drag.on is missing: it must be the name of an obstacle"),
@@ -137,7 +132,10 @@ fn what_asks_for_lattices_or_repeats_does_not_go_with_varying_spacing() {
         let message = load(&plain, &[overrides]).expect_err(overrides);
         assert!(message.contains(expected), "{message:?} lacks {expected:?}");
     }
-    let closed = plain.replace("boundaries = { left = { parabola = 1.0 }, right = { parabola = -1.0 } }\n", "");
+    let closed = plain.replace(
+        "boundaries = { left = { kind = \"inlet\", velocity = [1.0, 0.0] }, right = { kind = \"outlet\" } }\n",
+        "",
+    );
     let message = load(&closed, &["domain.periodic=x"]).expect_err("a domain that repeats");
     assert!(message.contains("cloud.refine = "), "{message}");
     assert!(message.contains("it needs domain.periodic = \"none\""), "{message}");

@@ -86,6 +86,8 @@ fn expectation(measure: Measure, component: Component) -> Expectation {
         column: None,
         on: None,
         between: None,
+        tracer: None,
+        side: None,
         tolerance: 0.1,
         source: "itself".to_owned(),
     }

@@ -9,6 +9,7 @@ mod random;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 
+mod carried;
 mod clouds;
 mod energy;
 mod exact;
@@ -16,6 +17,7 @@ mod fallback;
 mod flux;
 mod forces;
 mod grading;
+mod gravity;
 mod ladder;
 mod least_squares;
 mod matrix;
@@ -27,4 +29,5 @@ mod poisson;
 mod remap;
 mod repeatability;
 mod runs;
+mod sides;
 mod voronoi;

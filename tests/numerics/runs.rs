@@ -153,7 +153,7 @@ fn a_step_above_the_viscous_limit_warns_and_one_below_does_not() {
     assert_eq!(warned("time.step=0.002"), Vec::<String>::new());
     let warnings = warned("time.step=0.05");
     assert!(
-        matches!(&warnings[..], [one] if one.starts_with("time.step = 5e-2 s is above the viscous stability limit, ")),
+        matches!(&warnings[..], [one] if one.starts_with("time.step = 5e-2 s is above the stability limit of the viscosity, ")),
         "{warnings:?}"
     );
 }

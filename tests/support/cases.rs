@@ -60,6 +60,23 @@ exact = { solution = "taylor_green" }
 output = { pictures = false }
 "#;
 
+const TURNING: &str = r#"
+title = "Turning"
+domain = { width = 1.0, height = 1.0 }
+cloud = { arrangement = "regular", spacing = 0.05 }
+fluid = { density = 1.0 }
+effects = { advection = {}, tracers = [{ name = "c", shape = "gaussian", centre = [0.5, 0.75], radius = 0.1 }] }
+time = { end = 1.0 }
+exact = { solution = "rotation" }
+output = { pictures = false }
+"#;
+
+/// A Gaussian that a solid rotation carries round, with `n` spacings to a metre.
+#[allow(dead_code, reason = "not every file of tests has it")]
+pub fn turning(n: usize, overrides: &[&str]) -> Case {
+    case_of(TURNING, n, overrides)
+}
+
 const WAKE: &str = r#"
 title = "Wake"
 domain = { width = 1.5, height = 1.0 }

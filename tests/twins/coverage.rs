@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use stillpoint::step::{Operation, Points, Stage};
+use stillpoint::step::{Carried, Kicked, Operation, Points, Stage};
 
 use crate::scenes;
 
@@ -13,6 +13,7 @@ pub fn all() -> Vec<Operation> {
 }
 
 fn next(operation: Operation) -> Option<Operation> {
+    use Carried::{Temperature, Tracer};
     use Operation::*;
     use Points::{Moved, Standing};
     Some(match operation {
@@ -34,9 +35,26 @@ fn next(operation: Operation) -> Option<Operation> {
         FitVelocity(Moved) => RemapDeparture,
         RemapDeparture => MovePoints,
         MovePoints => RemapForward,
-        RemapForward => KeepVelocity,
+        RemapForward => FindDepartures,
+        FindDepartures => CarryVelocity,
+        CarryVelocity => FitScalar(Temperature),
+        FitScalar(Temperature) => FitScalar(Tracer(0)),
+        FitScalar(Tracer(0)) => FitScalar(Tracer(1)),
+        // More of them are done alike.
+        FitScalar(Tracer(_)) => CarryScalar(Temperature),
+        CarryScalar(Temperature) => CarryScalar(Tracer(0)),
+        CarryScalar(Tracer(0)) => CarryScalar(Tracer(1)),
+        CarryScalar(Tracer(_)) => Diffuse(Temperature, Stage::Start),
+        Diffuse(Temperature, Stage::Start) => Diffuse(Temperature, Stage::Middle),
+        Diffuse(Temperature, Stage::Middle) => Diffuse(Tracer(0), Stage::Start),
+        Diffuse(Tracer(_), Stage::Start) => Diffuse(Tracer(0), Stage::Middle),
+        Diffuse(Tracer(_), Stage::Middle) => HeatWalls(Stage::Start),
+        HeatWalls(Stage::Start) => HeatWalls(Stage::Middle),
+        HeatWalls(Stage::Middle) => KeepVelocity,
         KeepVelocity => ClearKick,
-        ClearKick => EstimateMiddle,
+        ClearKick => Gravity,
+        Gravity => Buoyancy,
+        Buoyancy => EstimateMiddle,
         EstimateMiddle => Viscosity(Stage::Start),
         Viscosity(Stage::Start) => Viscosity(Stage::Middle),
         Viscosity(Stage::Middle) => Predict,
@@ -50,7 +68,10 @@ fn next(operation: Operation) -> Option<Operation> {
         DirectSolve => CorrectByFit,
         CorrectByFit => CorrectByAdjoint,
         CorrectByAdjoint => HoldWalls,
-        HoldWalls => Reflect,
+        HoldWalls => OpenSides(Kicked::Before),
+        OpenSides(Kicked::Before) => OpenSides(Kicked::Within),
+        OpenSides(Kicked::Within) => OpenSides(Kicked::After),
+        OpenSides(Kicked::After) => Reflect,
         Reflect => Average,
         Average => Gradient,
         Gradient => Laplacian,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use stillpoint::direct::DirectSolver;
 use stillpoint::engine::{Clock, Data, Engine, Outcome};
 use stillpoint::scene::Scene;
-use stillpoint::step::{Buffer, Operation, Points, Rung};
+use stillpoint::step::{Buffer, Operation, Points, Rung, Stage};
 
 use crate::compare::{Difference, FACTOR, Results, allowed, compare, entries};
 use crate::engines::{Engines, State, candidate, read, reals, rounded, write};
@@ -61,6 +61,9 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::AssembleIntegralGradient
         | Operation::AssembleCollocated
         | Operation::FitVelocity(_)
+        | Operation::FindDepartures
+        | Operation::FitScalar(_)
+        | Operation::Diffuse(_, Stage::Start)
         | Operation::MovePoints
         | Operation::KeepVelocity
         | Operation::Predict
@@ -100,6 +103,10 @@ fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
         }
     };
     through(&scene.plan.setup, engines);
+    through(&scene.plan.on_step, engines);
+    for &operation in &scene.plan.on_step {
+        engines.double.apply(operation, &clock).expect("what a step begins with");
+    }
     if !scene.plan.flows {
         return through(&scene.plan.kick, engines);
     }

@@ -10,7 +10,7 @@ use stillpoint::measure::{LineMeasure, Sampler};
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Diagnostics, Observer, Outcome, Stop, simulate};
 
-use crate::cases::cavity_of;
+use crate::cases::{cavity_of, turning};
 use crate::engines::{candidate, gpu};
 use crate::scenes;
 
@@ -35,10 +35,11 @@ fn run(scene: &Scene, engine: &mut dyn Engine) -> (Outcome, Vec<Diagnostics>) {
     (outcome, rows.0)
 }
 
-/// Velocity components in m/s and pressures in Pa, one after the other.
+/// Velocity components in m/s, pressures in Pa, and what is carried, one after the other.
 fn numbers(outcome: &Outcome) -> Vec<f64> {
     let snapshot = &outcome.snapshot;
-    snapshot.velocity.iter().flat_map(|u| u.to_array()).chain(snapshot.pressure.iter().copied()).collect()
+    let flow = snapshot.velocity.iter().flat_map(|u| u.to_array()).chain(snapshot.pressure.iter().copied());
+    flow.chain(snapshot.carried.iter().flat_map(|(_, values)| values.iter().copied())).collect()
 }
 
 #[test]
@@ -61,9 +62,13 @@ fn a_whole_run_in_f64_agrees_with_the_cpu() {
     let Some(candidate) = candidate().filter(|candidate| candidate.double_precision) else { return };
     let collocated = ["effects.pressure.form=collocated", "effects.advection.remap=forward", "time.courant=0.5"];
     let projection = ["time.splitting=projection", "effects.pressure.gradient=adjoint"];
-    for changes in [&[][..], &collocated, &projection] {
-        let base = ["cloud.arrangement=jittered", "effects.pressure.tolerance=1e-11", "time.end=0.3"];
-        let scene = Arc::new(scenes::of(&[&base, changes].concat()));
+    let (heated, open) = (scenes::heated(), scenes::OPEN);
+    let base = ["cloud.arrangement=jittered", "effects.pressure.tolerance=1e-11", "time.end=0.3"];
+    let flows = [&[][..], &collocated, &projection, &heated, &open]
+        .map(|changes| (changes, scenes::of(&[&base, changes].concat())));
+    let turning = Scene::build(&turning(14, &[base[0], base[2]])).expect("a scene");
+    for (changes, scene) in flows.into_iter().chain([(&[][..], turning)]) {
+        let scene = Arc::new(scene);
         let (ours, _) = run(&scene, &mut gpu(&candidate, &scene, Precision::Double));
         let (theirs, _) = run(&scene, cpu::double(&scene).expect("an engine").as_mut());
         assert_eq!((ours.steps, ours.fallbacks), (theirs.steps, theirs.fallbacks));

@@ -4,11 +4,11 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use stillpoint::case::{Axes, Boundaries, Case, Circle, Obstacle, Refine};
+use stillpoint::case::{Axes, Boundaries, Case, Circle, Obstacle, Refine, SideKind, SideProfile, Wall};
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
-use crate::cases::{FIT, cavity_of, problem, vortices, wake};
+use crate::cases::{FIT, cavity_of, problem, turning, vortices, wake};
 
 /// Spacings a side: 17 x 17 points, which fill no whole number of blocks.
 const ACROSS: usize = 16;
@@ -17,8 +17,10 @@ const ACROSS: usize = 16;
 /// leaves against CPU f64 is what rounding leaves, and not where a solve chose to stop.
 const TIGHT: &str = "effects.pressure.tolerance=1e-9";
 
+const GRAVITY: &str = "effects.gravity.acceleration=[0.3, -1.0]";
+
 /// What each scene changes in the cavity, by name.
-const CHANGES: [(&str, &[&str]); 10] = [
+const CHANGES: [(&str, &[&str]); 12] = [
     ("regular, conservative, departure, reflection, fit, cg", &[]),
     (
         "jittered, adjoint, cg, no weight",
@@ -73,6 +75,11 @@ const CHANGES: [(&str, &[&str]); 10] = [
             "time.splitting=projection",
         ],
     ),
+    ("jittered, gravity", &["cloud.arrangement=jittered", GRAVITY]),
+    (
+        "random, collocated, gravity",
+        &["cloud.arrangement=random", "method.radius=2.8", "effects.pressure.form=collocated", GRAVITY],
+    ),
     ("jittered, conservative, direct", &["cloud.arrangement=jittered", "effects.pressure.solver=direct"]),
 ];
 
@@ -122,6 +129,18 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
         let changes = [&[TIGHT], changes].concat();
         scenes.push((name, Arc::new(Scene::build(&case(14, &changes)).expect("a scene"))));
     }
+    scenes.push(("heat, buoyancy and tracers", Arc::new(of(&heated()))));
+    let turning = turning(14, &["cloud.arrangement=jittered"]);
+    scenes.push(("a rotation that is prescribed", Arc::new(Scene::build(&turning).expect("a scene"))));
+    let solvers =
+        ["conjugate_gradient", "bicgstab", "direct"].map(|solver| format!("effects.pressure.solver={solver}"));
+    for (name, solver) in
+        ["inlet, outlet and slip, cg", "inlet, outlet and slip, bicgstab", "inlet, outlet and slip, direct"]
+            .into_iter()
+            .zip(&solvers)
+    {
+        scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
+    }
     scenes.push(("a channel that repeats", Arc::new(channel())));
     scenes.push(("obstacles in a lattice", Arc::new(with_obstacles("regular"))));
     scenes.push(("obstacles in relaxed points", Arc::new(with_obstacles("relaxed"))));
@@ -169,7 +188,9 @@ fn obstacle(circle: Option<Circle>, polygon: Option<Vec<[f64; 2]>>) -> Obstacle 
 fn graded() -> Scene {
     let mut case = cavity_of(8, &[TIGHT, "cloud.arrangement=relaxed"]);
     case.boundaries = Boundaries::default();
-    (case.boundaries.left.parabola, case.boundaries.right.parabola) = (Some(1.0), Some(-1.0));
+    case.boundaries.left =
+        Wall { kind: SideKind::Inlet, profile: SideProfile::Parabola, velocity: [1.0, 0.0], ..Wall::default() };
+    case.boundaries.right.kind = SideKind::Outlet;
     case.obstacles = vec![obstacle(Some(Circle { centre: [0.4, 0.5], radius: 0.13 }), None)];
     case.cloud.refine = vec![Refine { near: Some("ball".to_owned()), corners: None, spacing: 0.04, growth: 0.15 }];
     Scene::build(&case).expect("a scene")
@@ -178,6 +199,32 @@ fn graded() -> Scene {
 /// The cavity on 17 x 17 points with `changes`.
 pub fn of(changes: &[&str]) -> Scene {
     Scene::build(&cavity_of(ACROSS, &[&[TIGHT], changes].concat())).expect("a scene")
+}
+
+/// Fluid comes in on the left, slides along the top, and leaves on the right; a tracer goes with it.
+pub const OPEN: [&str; 6] = [
+    "cloud.arrangement=jittered",
+    "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.1], profile = 'parabola' }",
+    "boundaries.right={ kind = 'outlet' }",
+    "boundaries.top={ kind = 'slip' }",
+    GRAVITY,
+    "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
+
+/// A cavity heated from two sides, in which two tracers are carried.
+pub fn heated() -> [&'static str; 9] {
+    [
+        "cloud.arrangement=jittered",
+        GRAVITY,
+        "effects.heat.diffusivity=0.02",
+        "effects.heat.initial=0.3",
+        "effects.buoyancy={ expansion = 0.5, reference = 0.2 }",
+        "boundaries.left.temperature=1.0",
+        "boundaries.bottom.heat_flux=0.05",
+        "boundaries.right.temperature=0.0",
+        "effects.tracers=[{ name = 'smoke', diffusivity = 0.01, shape = 'gaussian', centre = [0.5, 0.6], radius = 0.2 }, \
+         { name = 'ink', shape = 'box', centre = [0.4, 0.7], size = [0.4, 0.3] }]",
+    ]
 }
 
 /// Along x the domain repeats, along y it ends at walls, of which one moves.

@@ -20,7 +20,8 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         return Err(Fault::reason("method.operators", reason));
     }
     if case.effects == Effects::default() {
-        let reason = "nothing to compute: give at least one of effects.viscosity, effects.pressure, effects.advection";
+        let reason = "nothing to compute: give at least one of effects.viscosity, effects.pressure, effects.advection, \
+                      effects.gravity, effects.heat, effects.tracers";
         return Err(Fault::reason("effects", reason));
     }
     if let Some(viscosity) = &case.effects.viscosity {
@@ -33,12 +34,15 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
             second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
         }
     }
+    if let Some(gravity) = &case.effects.gravity {
+        require(gravity.acceleration != [0.0, 0.0], "effects.gravity.acceleration")?;
+    }
     check_remap(case)
 }
 
 /// Problems without time: what they leave no room for, and what they need.
 fn check_problem(case: &Case) -> Result<(), Fault> {
-    let Effects { viscosity, pressure, advection } = &case.effects;
+    let Effects { viscosity, pressure, advection, gravity, heat, buoyancy, tracers } = &case.effects;
     let name = if case.derivatives.is_some() { "derivatives" } else { "poisson" };
     let stray = |key: &str| Err(Fault::reason(key, format!("belongs to a flow, and there is [{name}]; leave one out")));
     if case.derivatives.is_some() && case.poisson.is_some() {
@@ -47,7 +51,8 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if case.time != Time::default() {
         return stray("time");
     }
-    if viscosity.is_some() || advection.is_some() || (pressure.is_some() && case.derivatives.is_some()) {
+    let others = gravity.is_some() || heat.is_some() || buoyancy.is_some() || !tracers.is_empty();
+    if viscosity.is_some() || advection.is_some() || others || (pressure.is_some() && case.derivatives.is_some()) {
         return stray("effects");
     }
     if case.boundaries != Boundaries::default() {

@@ -1,7 +1,7 @@
 //! Checks of the published values that a run is held to.
 
 use super::super::fault::{self, Fault};
-use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, SIDES};
+use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, SIDES, Shape, SideKind, Solution};
 use super::is_line;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
@@ -15,6 +15,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
 }
 
 fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    check_field(case, expectation, key)?;
     match expectation.measure {
         Measure::Force | Measure::Difference | Measure::Flux => check_probe(case, expectation, key)?,
         _ => check_line(case, expectation, key)?,
@@ -32,6 +33,44 @@ fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Strin
     Ok(())
 }
 
+/// The fields that are carried are there, and a tracer is named.
+fn check_field(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let Expectation { component, measure, tracer, side, .. } = expectation;
+    if *component == Component::Temperature && case.effects.heat.is_none() {
+        return Err(Fault::reason(&key("component"), "there is no temperature: the table effects.heat is absent"));
+    }
+    match (tracer, *component == Component::Tracer) {
+        (None, true) => return Err(Fault::missing(&key("tracer"))),
+        (Some(_), false) => return Err(Fault::reason(&key("tracer"), "belongs to the component tracer; leave it out")),
+        (Some(name), true) if !case.effects.tracers.iter().any(|tracer| tracer.name == *name) => {
+            return Err(Fault::range(&key("tracer")));
+        }
+        _ => {}
+    }
+    match (side, *measure == Measure::Slope) {
+        (None, true) => Err(Fault::missing(&key("side"))),
+        (Some(_), false) => Err(Fault::reason(&key("side"), "belongs to the measure slope; leave it out")),
+        _ => Ok(()),
+    }
+}
+
+/// What the exact solution of a flow says of.
+fn known(case: &Case, expectation: &Expectation) -> &'static [Component] {
+    const FLOW: &[Component] = &[Component::U, Component::V, Component::P, Component::Velocity];
+    match case.exact.as_ref().map(|exact| exact.solution) {
+        Some(Solution::Couette | Solution::Poiseuille) => &[Component::U, Component::Velocity],
+        Some(Solution::Conduction) => &[Component::Temperature],
+        Some(Solution::Rotation) => {
+            let spreads = |name: &String| {
+                let mut tracers = case.effects.tracers.iter();
+                tracers.any(|own| own.name == *name && own.diffusivity > 0.0 && own.shape != Shape::Gaussian)
+            };
+            if expectation.tracer.as_ref().is_some_and(spreads) { &[] } else { &[Component::Tracer] }
+        }
+        _ => FLOW,
+    }
+}
+
 /// An error is taken over all points and against an exact solution, everything else along a line.
 fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     let Expectation { line, measure, component, on, between, .. } = expectation;
@@ -46,7 +85,7 @@ fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Stri
             return Err(Fault::reason(&key("measure"), "there is no exact solution: the table exact is absent"));
         }
         let known: &[Component] = match problem {
-            Problem::Flow => &[Component::U, Component::V, Component::P, Component::Velocity],
+            Problem::Flow => known(case, expectation),
             Problem::Poisson(_) => &[Component::P],
             Problem::Derivatives(_) => &[Component::Gradient, Component::Laplacian],
         };
@@ -58,14 +97,35 @@ fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Stri
             None => Ok(()),
         };
     }
+    let over_all: Option<(&[Component], &str)> = match measure {
+        Measure::Slope => Some((&[Component::Temperature], "must be \"temperature\" with this measure")),
+        Measure::Loss => {
+            Some((&[Component::Tracer, Component::Velocity], "must be \"tracer\" or \"velocity\" with this measure"))
+        }
+        _ => None,
+    };
+    if let Some((own, reason)) = over_all {
+        if !own.contains(component) {
+            return Err(Fault::reason(&key("component"), reason));
+        }
+        if *component == Component::Velocity && !case.has_side(SideKind::Inlet) {
+            let reason = "is what comes in and does not go out: no side has boundaries.*.kind = \"inlet\"";
+            return Err(Fault::reason(&key("measure"), reason));
+        }
+        return match line {
+            Some(_) => Err(Fault::reason(&key("line"), "belongs to the measures minimum, maximum and profile")),
+            None => Ok(()),
+        };
+    }
     if matches!(problem, Problem::Poisson(_)) && *component != Component::P {
         return Err(Fault::reason(&key("component"), "must be \"p\" with [poisson]"));
     }
     if matches!(problem, Problem::Derivatives(_)) {
         return Err(Fault::reason(&key("measure"), "must be \"error\" with [derivatives]"));
     }
-    if matches!(component, Component::Velocity | Component::Gradient | Component::Laplacian) {
-        return Err(Fault::reason(&key("component"), "belongs to the measure error; along a line it is u, v or p"));
+    if matches!(component, Component::Velocity | Component::Tracer | Component::Gradient | Component::Laplacian) {
+        let reason = "belongs to other measures; along a line it is u, v, p or temperature";
+        return Err(Fault::reason(&key("component"), reason));
     }
     let (at, length) = match line {
         None => return Err(Fault::missing(&key("line"))),
@@ -116,28 +176,21 @@ fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Res
     let stray = |name: &str, reason: &str| Err(Fault::reason(&key(name), reason));
     if *measure != Measure::Profile {
         let reason = match measure {
-            Measure::Error => "belongs to the measure profile, and measure is \"error\"",
             Measure::Minimum | Measure::Maximum => {
                 "belongs to the measure profile, and measure is \"minimum\" or \"maximum\""
             }
-            _ => "belongs to the measure profile",
+            _ => "belongs to the measure profile, which this is not",
         };
         if profile.is_some() || column.is_some() {
             return stray(if profile.is_some() { "profile" } else { "column" }, reason);
         }
     }
     match (measure, value, profile) {
-        (Measure::Error | Measure::Profile, Some(_), _) => {
-            let word = if *measure == Measure::Error { "error" } else { "profile" };
-            stray(
-                "value",
-                &format!(
-                    "belongs to the measures minimum and maximum, and to force, difference and flux; measure is {word:?}"
-                ),
-            )
+        (Measure::Error | Measure::Profile | Measure::Loss, Some(_), _) => {
+            stray("value", "belongs to the measures minimum, maximum and slope, and to force, difference and flux")
         }
         (Measure::Profile, None, None) => Err(Fault::missing(&key("profile"))),
-        (Measure::Error | Measure::Profile, ..) => Ok(()),
+        (Measure::Error | Measure::Profile | Measure::Loss, ..) => Ok(()),
         (_, None, _) => Err(Fault::missing(&key("value"))),
         (_, Some(0.0), _) => Err(Fault::range(&key("value"))),
         _ => Ok(()),

@@ -1,10 +1,12 @@
 //! What the types of a case cannot say: ranges, and keys that do not go together. Every check names its key.
 
+mod carried;
 mod effects;
 mod exact;
 mod expectations;
 mod layout;
 mod obstacles;
+mod sides;
 
 use super::fault::Fault;
 use super::{Case, Problem};
@@ -22,6 +24,8 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     layout::check(case)?;
     obstacles::check(case)?;
     effects::check(case)?;
+    sides::check(case)?;
+    carried::check(case)?;
     exact::check(case)?;
     if case.problem() == Problem::Flow {
         check_time(case)?;
@@ -35,6 +39,12 @@ fn check_time(case: &Case) -> Result<(), Fault> {
     require(time.end > 0.0, "time.end")?;
     require(time.courant > 0.0 && time.courant <= 50.0, "time.courant")?;
     require(time.steady.is_none_or(|change| change > 0.0), "time.steady")?;
+    if time.steady.is_some() && !case.velocity_changes() {
+        return Err(Fault::reason(
+            "time.steady",
+            "no effect changes the velocity, which is steady from the first; leave it out",
+        ));
+    }
     let Some(step) = time.step else { return Ok(()) };
     require(step > 0.0 && step <= time.end, "time.step")?;
     match time.end / step > MOST_STEPS {

@@ -51,23 +51,10 @@ impl<T: Real> CpuEngine<T> {
                 });
             }
             _ => {
-                let [around, around_count] = scene.plan.around();
                 with_taken!(self.fields, [velocity = Buffer::Velocity], {
+                    let around = self.around()?;
                     with_space!(self.domain, space => with_order!(constants.order, [N, F, M] => remap::remap_departure::<T, _, N>(
-                        space,
-                        self.standing(Buffer::Position)?,
-                        self.standing(Buffer::Support)?,
-                        remap::Around {
-                            neighbours: self.fields.index(around)?,
-                            count: self.fields.index(around_count)?,
-                            capacity: scene.plan.around_capacity(sizes),
-                        },
-                        self.fields.real(moving)?,
-                        self.fields.real(Buffer::Coefficients)?,
-                        dt,
-                        sizes.interior,
-                        &mut velocity,
-                    )));
+                        self.moving(space)?, around, dt, sizes.interior, &mut velocity)));
                 });
             }
         }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
-use crate::cpu::operations::{conservative, derivative, kick};
+use crate::cpu::operations::open_sides::Open;
+use crate::cpu::operations::{conservative, derivative, gravity, kick, open_sides};
 use crate::cpu::real::Real;
 use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation};
@@ -17,6 +18,10 @@ impl<T: Real> CpuEngine<T> {
         match operation {
             Operation::ClearKick => {
                 with_taken!(self.fields, [kick = Buffer::Kick], kick.fill(T::zero()));
+            }
+            Operation::Gravity => {
+                let change = (clock.kick * constants.gravity).to_array().map(T::from_f64);
+                with_taken!(self.fields, [kick = Buffer::Kick], gravity::gravity(change, &mut kick));
             }
             Operation::EstimateMiddle => {
                 with_taken!(self.fields, [middle = Buffer::Projected, kick = Buffer::Kick], {
@@ -56,6 +61,18 @@ impl<T: Real> CpuEngine<T> {
                         sizes.interior,
                         &mut projected,
                     ));
+                });
+            }
+            Operation::OpenSides(kicked) => {
+                with_taken!(self.fields, [velocity = kicked.velocity()], {
+                    let open = Open {
+                        points: self.fields.index(Buffer::OpenPoints)?,
+                        row: self.fields.real(Buffer::OpenRow)?,
+                        count: self.fields.index(Buffer::OpenCount)?,
+                        normal: self.fields.real(Buffer::OpenNormal)?,
+                        capacity: sizes.open_capacity,
+                    };
+                    open_sides::open_sides(open, sizes.interior, sizes.points, &mut velocity);
                 });
             }
             Operation::HoldWalls => {

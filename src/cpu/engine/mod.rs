@@ -1,5 +1,6 @@
 //! The CPU engine: the plan's operations on arrays in memory, on all cores.
 
+mod carry;
 mod drift;
 mod field;
 mod geometry;
@@ -65,7 +66,8 @@ impl<T: Real> CpuEngine<T> {
     /// pressure: one that overflows leaves the pressure as it was.
     fn non_finite(&self) -> Result<Option<NonFinite>, EngineError> {
         let points = self.scene.sizes.points;
-        for buffer in [Buffer::Projected, Buffer::Pressure, Buffer::Source] {
+        let carried = self.scene.plan.carried.iter().map(|&field| Buffer::Carried(field));
+        for buffer in [Buffer::Projected, Buffer::Pressure, Buffer::Source].into_iter().chain(carried) {
             let Ok(values) = self.fields.real(buffer) else { continue };
             let width = values.len() / self.scene.padded();
             if let Some(entry) = values[..points * width].iter().position(|value| !value.is_finite()) {
@@ -111,13 +113,22 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::MovePoints
             | Operation::RemapForward
             | Operation::KeepVelocity => self.drift(operation, clock),
+            Operation::FindDepartures
+            | Operation::CarryVelocity
+            | Operation::FitScalar(_)
+            | Operation::CarryScalar(_)
+            | Operation::Diffuse(..)
+            | Operation::HeatWalls(_)
+            | Operation::Buoyancy => self.carry(operation, clock),
             Operation::ClearKick
+            | Operation::Gravity
             | Operation::EstimateMiddle
             | Operation::Viscosity(_)
             | Operation::Predict
             | Operation::CorrectByFit
             | Operation::CorrectByAdjoint
             | Operation::HoldWalls
+            | Operation::OpenSides(_)
             | Operation::Reflect => self.kick(operation, clock),
             Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence

@@ -60,6 +60,7 @@ impl<T: Real> CpuEngine<T> {
                     residual: constants.tolerance * density_per_kick / clock.dt,
                     max_iterations: constants.max_iterations,
                     floor: constants.floor,
+                    singular: constants.singular,
                 };
                 self.solve = match operation {
                     Operation::ConjugateGradient => self.conjugate_gradient(stop)?,
@@ -152,9 +153,10 @@ impl<T: Real> CpuEngine<T> {
             self.fields.write(Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
             let (points, source) = (self.scene.sizes.points, self.fields.real(Buffer::Source)?);
             let pressure = self.fields.real(Buffer::Pressure)?;
+            let singular = self.scene.constants.singular;
             self.solve.last_residual = match self.scene.cells() {
-                Some(_) => pressure::residual(&self.conservative()?, points, source, pressure),
-                None => pressure::residual(&self.collocated()?, points, source, pressure),
+                Some(_) => pressure::residual(&self.conservative()?, points, singular, source, pressure),
+                None => pressure::residual(&self.collocated()?, points, singular, source, pressure),
             };
             self.solve.outcome = Outcome::Converged;
         }

@@ -7,6 +7,7 @@ use crate::cpu::operations::fits::Fits;
 use crate::cpu::operations::integral::Means;
 use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::neighbours::Search;
+use crate::cpu::operations::remap::{Around, Moving};
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::Real;
 use crate::engine::EngineError;
@@ -81,6 +82,26 @@ impl<T: Real> CpuEngine<T> {
             count: self.fields.index(Buffer::FluxCount)?,
             row: self.fields.real(Buffer::FluxRow)?,
             capacity: self.scene.sizes.flux_capacity,
+        })
+    }
+
+    pub(super) fn moving<S: Space<T>>(&self, space: S) -> Result<Moving<'_, T, S>, EngineError> {
+        Ok(Moving {
+            space,
+            position: self.standing(Buffer::Position)?,
+            support: self.standing(Buffer::Support)?,
+            values: self.fields.real(self.scene.plan.moving())?,
+            coefficients: self.fields.real(Buffer::Coefficients)?,
+            trace: T::from_f64(self.scene.constants.trace),
+        })
+    }
+
+    pub(super) fn around(&self) -> Result<Around<'_>, EngineError> {
+        let [around, count] = self.scene.plan.around();
+        Ok(Around {
+            neighbours: self.fields.index(around)?,
+            count: self.fields.index(count)?,
+            capacity: self.scene.plan.around_capacity(&self.scene.sizes),
         })
     }
 

@@ -1,7 +1,7 @@
 //! Jacobi-preconditioned conjugate gradients for the conservative pressure equation.
 //!
-//! `K` is symmetric and singular: its null space is the constants, and the right side sums to zero but for rounding,
-//! which is taken out. Residuals are recomputed from the solution before they are believed.
+//! `K` is symmetric and, where no pressure is prescribed, singular: its null space is the constants, and the right side sums to zero
+//! but for rounding, which is taken out. Residuals are recomputed from the solution before they are believed.
 //! Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 //! algorithm 9.1.
 
@@ -42,7 +42,7 @@ pub fn solve<T: Real>(
             }
             [lanes::<T>(sum)]
         });
-        let mean = T::Pack::splat(T::from_f64(sum / points as f64));
+        let mean = T::Pack::splat(T::from_f64(if stop.singular { sum / points as f64 } else { 0.0 }));
         let [mut rz, square, scale] = blocks::sum_over([&mut *residual, &mut *direction], &|start, [r, d]| {
             let mut sums = [T::Pack::zero(); 3];
             for k in (0..r.len()).step_by(T::Pack::LANES) {

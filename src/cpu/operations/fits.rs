@@ -37,6 +37,23 @@ impl<T: Real, S: Space<T>, const N: usize, const F: usize> Fits<'_, T, S, N, F> 
         factor
     }
 
+    /// Scaled coefficients of a scalar field at the points `i..i + LANES`.
+    #[inline(always)]
+    pub fn scalar(&self, i: usize, field: &[T]) -> [T::Pack; N] {
+        let own = T::Pack::load(&field[i..]);
+        let mut right = [T::Pack::zero(); N];
+        self.stencil(i).for_each(|_, index, [x, y], square| {
+            // SAFETY: as in `Stencil::for_each`.
+            let difference = unsafe { T::Pack::gather(field, index) } - own;
+            let weighted = moments::weight(self.weight, square) * difference;
+            let basis: [T::Pack; N] = moments::basis(x, y);
+            for k in 0..N {
+                right[k] = weighted.mul_add(basis[k], right[k]);
+            }
+        });
+        moments::solve(&self.factor(i), right)
+    }
+
     /// Scaled coefficients of both components of a velocity at the points `i..i + LANES`.
     #[inline(always)]
     fn vector(&self, i: usize, field: &[T]) -> ([[T::Pack; N]; 2], T::Pack) {

@@ -22,6 +22,8 @@ pub struct Stop {
     pub max_iterations: u32,
     /// Rounding units of the diagonal's product below which a residual is as small as it gets.
     pub floor: f64,
+    /// The matrix has the constants in its null space: the mean of a residual counts for nothing.
+    pub singular: bool,
 }
 
 impl Stop {
@@ -106,14 +108,14 @@ impl Monitor {
     }
 }
 
-/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean, in the unit that the tolerance is in.
-pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, source: &[T], pressure: &[T]) -> f64 {
+/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean where the matrix is singular, in the unit that the tolerance is in.
+pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, singular: bool, source: &[T], pressure: &[T]) -> f64 {
     let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
     let [sum] = blocks::sum_ranges(source.len(), &|range| {
         let packs = range.step_by(T::Pack::LANES);
         [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
     });
-    let mean = T::Pack::splat(T::from_f64(sum / points as f64));
+    let mean = T::Pack::splat(T::from_f64(if singular { sum / points as f64 } else { 0.0 }));
     let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
         for i in range.step_by(T::Pack::LANES) {

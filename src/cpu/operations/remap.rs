@@ -8,27 +8,60 @@ use crate::cpu::operations::moments;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{One, Real};
 
-/// Departure-point remap: the fluid that arrives at a standing point came from `r0 - dt u`, the velocity being that
-/// at the departure point itself, to second order; the fit of the point nearest to that place is evaluated there.
+/// A velocity and its fits, by which places are traced back and evaluated.
+#[derive(Clone, Copy)]
+pub struct Moving<'a, T, S> {
+    pub space: S,
+    pub position: &'a [T],
+    pub support: &'a [T],
+    pub values: &'a [T],
+    pub coefficients: &'a [T],
+    /// Where on the way back the velocity is taken: 1, or 1/2 of one that is prescribed; see [`Moving::departure`].
+    pub trace: T,
+}
+
+impl<T: Real, S: Space<T>> Moving<'_, T, S> {
+    /// Where point `i` stands.
+    #[inline(always)]
+    pub fn place(&self, i: usize) -> [T; 2] {
+        [self.position[2 * i], self.position[2 * i + 1]]
+    }
+
+    /// The fit of point `j` at `place`.
+    #[inline(always)]
+    pub fn evaluate<const N: usize>(&self, j: usize, place: [T; 2]) -> [T; 2] {
+        evaluate::<T, S, N>(self.space, self.position, self.support, self.values, self.coefficients, j, place)
+    }
+
+    /// Where the fluid at point `i` was `dt` before: `r0 - dt u`. Between two kicks fluid keeps its velocity, which is that at the
+    /// departure point itself, to second order; of a prescribed velocity it is that half way (the midpoint rule).
+    #[inline(always)]
+    pub fn departure<const N: usize>(&self, i: usize, dt: T) -> [T; 2] {
+        let here = self.place(i);
+        let back = |[u, v]: [T; 2]| self.space.inside([here[0] - dt * u, here[1] - dt * v]);
+        let [u, v] = [self.values[2 * i], self.values[2 * i + 1]];
+        back(self.evaluate::<N>(i, back([self.trace * u, self.trace * v])))
+    }
+
+    /// The point nearest to `place`, found from `from`.
+    #[inline(always)]
+    pub fn nearest(&self, around: Around, place: [T; 2], from: usize) -> usize {
+        nearest(self.space, self.position, around, place, from)
+    }
+}
+
+/// Departure-point remap: the fit of the point nearest to where the fluid at a standing point came from is evaluated there.
 pub fn remap_departure<T: Real, S: Space<T>, const N: usize>(
-    space: S,
-    position: &[T],
-    support: &[T],
+    moving: Moving<T, S>,
     around: Around,
-    values: &[T],
-    coefficients: &[T],
     dt: T,
     end: usize,
     velocity: &mut [T],
 ) {
-    let evaluate = |j, place| evaluate::<T, S, N>(space, position, support, values, coefficients, j, place);
     blocks::for_each(velocity, 2, &|block, out| {
         for i in block * BLOCK..((block + 1) * BLOCK).min(end) {
-            let here = [position[2 * i], position[2 * i + 1]];
-            let back = |[u, v]: [T; 2]| space.inside([here[0] - dt * u, here[1] - dt * v]);
-            let own = [values[2 * i], values[2 * i + 1]];
-            let from = back(evaluate(i, back(own)));
-            let value = evaluate(nearest(space, position, around, from, i), from);
+            let from = moving.departure::<N>(i, dt);
+            let value = moving.evaluate::<N>(moving.nearest(around, from, i), from);
             let lane = 2 * (i - block * BLOCK);
             out[lane..lane + 2].copy_from_slice(&value);
         }
@@ -60,7 +93,7 @@ fn evaluate<T: Real, S: Space<T>, const N: usize>(
 
 /// The way from point `j` to `place`.
 #[inline(always)]
-fn offset<T: Real, S: Space<T>>(space: S, position: &[T], j: usize, place: [T; 2]) -> [T; 2] {
+pub fn offset<T: Real, S: Space<T>>(space: S, position: &[T], j: usize, place: [T; 2]) -> [T; 2] {
     let [x, y] = space.shortest([One(place[0] - position[2 * j]), One(place[1] - position[2 * j + 1])]);
     [x.0, y.0]
 }

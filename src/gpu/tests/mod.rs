@@ -45,7 +45,7 @@ const CHANGES: [&[&str]; 5] = [
         "effects.advection.remap=\"forward\"",
         "cloud.arrangement=\"regular\"",
     ],
-    &["effects.pressure.solver=\"direct\""],
+    &["effects.pressure.solver=\"direct\"", "effects.gravity.acceleration=[0.3, -1.0]"],
     &[
         "effects.pressure.tolerance=1e-4",
         "method.weight=\"quadratic\"",
@@ -76,6 +76,30 @@ fn still_scene() -> Scene {
 /// No pressure: nothing but viscosity and advection.
 fn forceless_scene() -> Scene {
     scene_of(&CAVITY.replace("[effects.pressure]\n", ""), &[])
+}
+
+/// Heat that drives the flow, and a tracer that it carries.
+fn heated_scene() -> Scene {
+    let tracer =
+        "[[effects.tracers]]\nname = \"c\"\ndiffusivity = 0.1\nshape = \"disc\"\ncentre = [0.5, 0.5]\nradius = 0.2\n";
+    let changes = [
+        "effects.heat.diffusivity=0.02",
+        "effects.gravity.acceleration=[0.0, -1.0]",
+        "effects.buoyancy.expansion=0.1",
+        "boundaries.left.temperature=1.0",
+        "boundaries.right.heat_flux=-0.1",
+    ];
+    scene_of(&(CAVITY.to_owned() + tracer), &changes)
+}
+
+/// Fluid comes in on one side, leaves on another, and slides along a third.
+fn channel_scene() -> Scene {
+    let changes = [
+        "boundaries.left={ kind = \"inlet\", velocity = [1.0, 0.0] }",
+        "boundaries.right={ kind = \"outlet\" }",
+        "boundaries.bottom={ kind = \"slip\" }",
+    ];
+    scene_of(CAVITY, &changes)
 }
 
 /// Fluid comes and goes through the sides.

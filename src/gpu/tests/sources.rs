@@ -5,21 +5,25 @@ use std::collections::BTreeSet;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use super::{CHANGES, Precision, forceless_scene, graded_scene, open_scene, periodic_scene, scene, still_scene};
+use super::{
+    CHANGES, Precision, channel_scene, forceless_scene, graded_scene, heated_scene, open_scene, periodic_scene, scene,
+    still_scene,
+};
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
 use crate::gpu::prelude::prelude;
 use crate::gpu::program::{end_step_stages, measured_arrays};
 use crate::gpu::sources::{self, Stages};
 use crate::scene::Scene;
-use crate::step::{Operation, Points, Stage};
+use crate::step::{Carried, Kicked, Operation, Points, Stage};
 
 /// Functions whose f64 versions pass validation and return garbage on some drivers.
 const NOT_IN_F64: [&str; 12] =
     ["exp", "exp2", "log", "log2", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow"];
 
 fn scenes() -> Vec<Scene> {
-    let others = [still_scene(), forceless_scene(), open_scene(), periodic_scene(), graded_scene()];
+    let (flows, lies) = ([heated_scene(), channel_scene()], [periodic_scene(), graded_scene()]);
+    let others = [still_scene(), forceless_scene(), open_scene()].into_iter().chain(flows).chain(lies);
     CHANGES.iter().map(|changes| scene(changes)).chain(others).collect()
 }
 
@@ -85,6 +89,15 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::RemapForward,
         Operation::KeepVelocity,
         Operation::ClearKick,
+        Operation::Gravity,
+        Operation::OpenSides(Kicked::Before),
+        Operation::OpenSides(Kicked::Within),
+        Operation::OpenSides(Kicked::After),
+        Operation::Buoyancy,
+        Operation::FindDepartures,
+        Operation::CarryVelocity,
+        Operation::HeatWalls(Stage::Start),
+        Operation::HeatWalls(Stage::Middle),
         Operation::EstimateMiddle,
         Operation::Viscosity(Stage::Start),
         Operation::Viscosity(Stage::Middle),
@@ -110,6 +123,10 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::FitVelocity,
     ] {
         all.extend(both(operation));
+    }
+    for field in [Carried::Temperature, Carried::Tracer(0)] {
+        all.extend([Operation::FitScalar(field), Operation::CarryScalar(field)]);
+        all.extend([Stage::Start, Stage::Middle].map(|stage| Operation::Diffuse(field, stage)));
     }
     assert_eq!(used, all);
 }

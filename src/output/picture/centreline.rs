@@ -143,6 +143,8 @@ fn prepare(
         Component::V => ("v", "v", "m/s"),
         Component::P => ("p", "p less its value in the middle,", "Pa"),
         Component::Velocity => ("|u|", "speed", "m/s"),
+        Component::Temperature => ("T", "temperature", "K"),
+        Component::Tracer => ("c", "tracer", "1"),
         Component::Gradient => ("∇φ", "gradient", "1/m"),
         Component::Laplacian => ("∆φ", "Laplacian", "1/m²"),
         // No line has them.

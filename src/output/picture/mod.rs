@@ -2,6 +2,7 @@
 
 mod bar;
 mod canvas;
+mod carried;
 mod centreline;
 mod colour;
 mod cost;
@@ -32,7 +33,7 @@ use crate::known::Known;
 use crate::measure::Profile;
 use crate::snapshot::Snapshot;
 
-/// Draws `pressure.png`, and of a flow `speed.png` and `centreline.png`, into a run's folder and returns their paths. `profiles` holds
+/// Draws `pressure.png`, and of a flow `speed.png`, `centreline.png` and a picture of each field that it carries, into a run's folder and returns their paths. `profiles` holds
 /// the published profiles by the name of their expectation; one that is missing is left out of the picture.
 ///
 /// # Errors
@@ -49,6 +50,9 @@ pub fn draw_all(
     let title = format!("{}{}", case.title, if case.problem() == Problem::Flow { &time } else { "" });
     let mut drawn = vec![(folder.pressure_picture(), pressure::draw(&text, case, snapshot, &title)?)];
     if case.problem() == Problem::Flow {
+        for (name, values) in &snapshot.carried {
+            drawn.push((folder.carried_picture(name), carried::draw(&text, case, snapshot, (name, values), &title)?));
+        }
         drawn.push((folder.speed_picture(), speed::draw(&text, case, snapshot, &title)?));
         drawn.push((folder.centreline_picture(), centreline::draw(&text, case, snapshot, profiles, &title)?));
     }
@@ -101,7 +105,7 @@ mod tests {
             velocity: cloud.iter().map(|x| DVec2::new(x.y - 0.5, 0.5 - x.x)).collect(),
             pressure: cloud.iter().map(|x| x.distance(DVec2::splat(0.5)) - 0.3).collect(),
             position: cloud.into_iter().map(|x| x * size).collect(),
-            derivatives: None,
+            ..Snapshot::default()
         };
         (case, snapshot)
     }
@@ -165,7 +169,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let folder = RunFolder::open(root.path()).unwrap();
         let error = draw_all(&folder, &case, &snapshot, &BTreeMap::new()).unwrap_err();
-        assert!(matches!(error, OutputError::PointNotFinite { field: "u", point: 5, .. }), "{error}");
+        assert!(matches!(error, OutputError::PointNotFinite { ref field, point: 5, .. } if field == "u"), "{error}");
         let nothing = draw_all(&folder, &case, &Snapshot::default(), &BTreeMap::new());
         assert!(matches!(nothing, Err(OutputError::Measure(_))));
     }
