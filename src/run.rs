@@ -9,7 +9,7 @@ use crate::case::{Case, Measure, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineError, EngineInfo};
 use crate::known::Known;
-use crate::measure::evaluate_run;
+use crate::measure::{Probe, evaluate_run};
 use crate::motion;
 use crate::output::motion::Frames;
 use crate::output::picture::Film;
@@ -60,7 +60,10 @@ pub fn run(job: Job<'_>, engine: &mut dyn Engine, observer: &mut dyn Observer) -
     let prepared = Instant::now();
     // Without time there is nothing to report on the way.
     let flows = job.scene.plan.flows;
-    let rows = flows.then(|| DiagnosticsWriter::create(&job.folder.diagnostics())).transpose()?;
+    let rows = match flows {
+        true => Some(DiagnosticsWriter::create(&job.folder.diagnostics(), probes(job.scene)?)?),
+        false => None,
+    };
     let moves = job.scene.plan.moves();
     let motion = moves.then(|| MotionWriter::create(job.folder, &job.scene.case)).transpose()?;
     let (info, history) = (engine.info(), Vec::new());
@@ -78,7 +81,7 @@ pub fn resume(
 ) -> Result<Report, RunError> {
     let prepared = Instant::now();
     let step = state.progress.step;
-    let rows = Some(DiagnosticsWriter::resume(&job.folder.diagnostics(), step)?);
+    let rows = Some(DiagnosticsWriter::resume(&job.folder.diagnostics(), step, probes(job.scene)?)?);
     let mut writer = Recorder {
         job,
         info: engine.info(),
@@ -91,6 +94,12 @@ pub fn resume(
     };
     let outcome = simulation::resume(job.scene, engine, &mut writer, state)?;
     finish(writer, outcome, prepared)
+}
+
+/// Names of what the diagnostics have columns of their own for.
+fn probes(scene: &Scene) -> Result<Vec<String>, RunError> {
+    let probes = Probe::of_case(&scene.case, &scene.cloud.position).map_err(SimulationError::from)?;
+    Ok(probes.into_iter().map(|probe| probe.name).collect())
 }
 
 fn finish(mut writer: Recorder<'_>, outcome: Outcome, prepared: Instant) -> Result<Report, RunError> {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
 use crate::cloud::flux::Fluxes;
-use crate::cloud::voronoi::Cells;
+use crate::cloud::voronoi::{Boundary, Cells};
 use crate::cloud::{Cloud, CloudError, OpenPoint, Side, first_apart, grid, open_points, shortest};
 use crate::cpu::blocks;
 use crate::cpu::operations::integral::{self, Lattice};
@@ -43,7 +43,7 @@ pub struct Scene {
 /// Numbers that both engines use; each stands here alone and reaches WGSL from here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants {
-    /// `r_e`, m.
+    /// `r_e`, m; the largest where the spacing varies.
     pub radius: f64,
     pub weight: Weight,
     /// Degree of the fitted polynomial, 1 to 4.
@@ -122,14 +122,14 @@ impl Scene {
         let radius = case.method.radius() * cloud.spacing;
         // Where the fluid ends a point may have few neighbours.
         let needed = if plan.moves() { 0 } else { moments::coefficients(case.method.order) };
-        let (most, apart) = survey(&cloud, radius, case.method.radius(), needed)?;
+        let (most, apart) = survey(&cloud, case.method.radius(), needed)?;
         if let (Some((point, groups)), Some(PressureForm::Collocated), false) = (apart, plan.form, plan.moves()) {
             let DVec2 { x, y } = cloud.position[point];
             return Err(SceneError::Apart { groups, point, x, y });
         }
         // Not many more cells than points, however far these lie apart.
         let room = (cloud.size.x * cloud.size.y / (4 * cloud.len() + 16) as f64).sqrt();
-        let grid = Grid::new(cloud.size, cloud.period, radius.max(room));
+        let grid = Grid::new(cloud.size, cloud.period, cell(&cloud, case.method.radius()).max(room));
         let capacity = if plan.moves() {
             2 * most
         } else if plan.drift.contains(&Operation::MovePoints) {
@@ -140,9 +140,10 @@ impl Scene {
         let conservative = plan.form == Some(PressureForm::Conservative);
         let cells = plan.has_faces().then(|| Cells::build(&cloud));
         let fits_faces = plan.kick.contains(&Operation::DivergenceByFit);
-        let fluxes = cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, radius));
+        let fluxes =
+            cells.as_ref().filter(|_| fits_faces).map(|cells| Fluxes::build(&cloud, cells, case.method.radius()));
         let opens = plan.buffers().contains(&Buffer::OpenRow);
-        let open = if opens { open_points(&cloud, &case.boundaries, radius) } else { Vec::new() };
+        let open = if opens { open_points(&cloud, &case.boundaries, case.method.radius()) } else { Vec::new() };
         let sizes = Sizes {
             points: cloud.len(),
             interior: cloud.interior,
@@ -292,7 +293,7 @@ impl Scene {
         let mut data = vec![
             (Buffer::Position(Points::Standing), position.clone()),
             (Buffer::Position(Points::Moved), position),
-            (Buffer::Support(Points::Standing), Data::Real(vec![self.constants.radius; self.padded()])),
+            (Buffer::Support(Points::Standing), self.scalars(&self.supports(), self.constants.radius)),
             (Buffer::Support(Points::Moved), Data::Real(vec![self.constants.radius; self.padded()])),
             (Buffer::Normal, self.vectors(&normal, DVec2::ZERO)),
             (Buffer::Volume, self.scalars(&volume, 1.0)),
@@ -304,7 +305,7 @@ impl Scene {
             data.extend(self.faces(cells));
             data.extend(self.fluxes.iter().flat_map(|fluxes| self.flux_rows(fluxes)));
             if let (true, Some(exact)) = (self.plan.through_flow, &self.exact) {
-                let flux = cells.wall_flux(&|place| exact.velocity(place, 0.0));
+                let flux = cells.wall_flux(&|piece| exact.velocity(piece.middle, 0.0));
                 data.push((Buffer::WallFlux, self.scalars(&flux, 0.0)));
             }
             if self.exact.is_none() {
@@ -319,6 +320,12 @@ impl Scene {
         data
     }
 
+    /// Radius of each point's neighbourhood, m.
+    fn supports(&self) -> Vec<f64> {
+        let spacings = self.case.method.radius();
+        (0..self.cloud.len()).map(|point| spacings * self.cloud.spacing_at(point)).collect()
+    }
+
     /// A known field, or the source that makes the pressure equation give it.
     fn known(&self, volume: &[f64]) -> Option<(Buffer, Data)> {
         let (known, cloud) = (Known::of(&self.case)?, &self.cloud);
@@ -326,13 +333,19 @@ impl Scene {
             let values: Vec<f64> = cloud.position.iter().map(|&place| known.value(place)).collect();
             return Some((Buffer::Field, self.scalars(&values, 0.0)));
         }
-        // No slope across walls: nothing stands in their rows.
+        // No slope across the sides: nothing stands in their rows.
         let source = |point: usize| match self.cells {
             Some(_) => -volume[point] * known.laplacian(cloud.position[point]),
             None if point < cloud.interior => known.laplacian(cloud.position[point]),
             None => 0.0,
         };
-        let source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        let mut source: Vec<f64> = (0..cloud.len()).map(source).collect();
+        // Outlines stand at a slope.
+        for piece in self.cells.iter().flat_map(|cells| &cells.walls) {
+            if matches!(piece.of, Boundary::Obstacle(_)) {
+                source[piece.point] += known.gradient(piece.middle).dot(piece.area);
+            }
+        }
         Some((Buffer::Source, self.scalars(&source, 0.0)))
     }
 
@@ -424,15 +437,25 @@ impl Scene {
 
 type Survey = (usize, Option<(usize, usize)>);
 
-/// The most neighbours that any point has within `radius`, and the first point that hangs together with no other group, with the
-/// number of groups; refuses points that coincide or stand alone.
-fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<Survey, SceneError> {
-    let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, radius);
-    let least = COINCIDENT * cloud.spacing;
+/// Side of a cell of the neighbour search, m: the radius, or, where that varies, the least, as long as there are not many
+/// more cells than points. A search looks at as many cells as its own radius takes.
+fn cell(cloud: &Cloud, spacings: f64) -> f64 {
+    let least = (0..cloud.len()).map(|point| cloud.spacing_at(point)).fold(cloud.spacing, f64::min);
+    match cloud.local {
+        Some(_) => (spacings * least).max((cloud.size.x * cloud.size.y / cloud.len() as f64).sqrt()),
+        None => spacings * cloud.spacing,
+    }
+}
+
+/// The most neighbours that any point has within its radius of so many spacings, and the first point that hangs together with no
+/// other group, with the number of groups; refuses points that coincide or stand alone.
+fn survey(cloud: &Cloud, spacings: f64, needed: usize) -> Result<Survey, SceneError> {
+    let grid = grid::Grid::new(&cloud.position, cloud.size, cloud.period, cell(cloud, spacings));
     let count = |point: usize| -> Result<usize, SceneError> {
         let own = cloud.position[point];
+        let (radius, least) = (spacings * cloud.spacing_at(point), COINCIDENT * cloud.spacing_at(point));
         let mut found = 0;
-        for other in (0..=1).flat_map(|ring| grid.ring(own, ring)).filter(|&other| other != point) {
+        for other in grid.within(own, radius).filter(|&other| other != point) {
             let square = shortest(cloud.position[other] - own, cloud.period).length_squared();
             found += usize::from(square < radius * radius);
             if square < least * least {
@@ -446,5 +469,6 @@ fn survey(cloud: &Cloud, radius: f64, spacings: f64, needed: usize) -> Result<Su
         Ok(found)
     };
     let most = (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))?;
-    Ok((most, first_apart(&cloud.position, &grid, cloud.period, radius)))
+    // Where the spacing varies, by the widest reach: groups that hang together by less are not told apart.
+    Ok((most, first_apart(&cloud.position, &grid, cloud.period, spacings * cloud.spacing)))
 }

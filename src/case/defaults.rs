@@ -19,7 +19,7 @@ impl Cloud {
     pub fn jitter(&self) -> f64 {
         match self.arrangement {
             Arrangement::Jittered => self.jitter.unwrap_or(DEFAULT_JITTER),
-            Arrangement::Regular | Arrangement::Random => 0.0,
+            Arrangement::Regular | Arrangement::Random | Arrangement::Relaxed => 0.0,
         }
     }
 

@@ -13,6 +13,7 @@ pub(crate) mod fault;
 pub(crate) mod keys;
 pub(crate) mod load;
 mod moving;
+mod obstacle;
 mod reference;
 pub(crate) mod text;
 mod tracer;
@@ -21,6 +22,7 @@ pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, MOST_STEPS, SMAL
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use moving::{Fill, Initial, Motion, Sensor, Wave};
+pub use obstacle::{Circle, Obstacle, Refine, SIDES};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
 
@@ -41,6 +43,9 @@ pub struct Case {
     pub fluid: Fluid,
     #[serde(default)]
     pub boundaries: Boundaries,
+    /// Bodies in the fluid.
+    #[serde(default)]
+    pub obstacles: Vec<Obstacle>,
     #[serde(default)]
     pub initial: Initial,
     #[serde(default)]
@@ -112,10 +117,13 @@ pub struct Cloud {
     pub jitter: Option<f64>,
     /// `random` alone: least distance of two points, in spacings, up to 0.75; [`DEFAULT_MINIMUM_DISTANCE`] where absent.
     pub minimum_distance: Option<f64>,
-    /// `jittered` and `random`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
+    /// All but `regular`: the same seed gives the same points; [`DEFAULT_SEED`] where absent.
     pub seed: Option<u64>,
     /// Points that move alone: the part of the domain that holds fluid at the start.
     pub fill: Option<Fill>,
+    /// `relaxed` alone: where the points lie closer.
+    #[serde(default)]
+    pub refine: Vec<Refine>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -127,6 +135,8 @@ pub enum Arrangement {
     Jittered,
     /// Random points with a minimum distance and the lattice's mean density.
     Random,
+    /// Random points moved apart until they lie evenly; the arrangement whose spacing may vary.
+    Relaxed,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -553,7 +563,7 @@ pub struct Expectation {
     /// `minimum`, `maximum` and `profile`: the line that is looked along.
     pub line: Option<Line>,
     pub measure: Measure,
-    /// `minimum` and `maximum`: the published value, m/s or Pa.
+    /// All but `profile` and `error`: the published value, m/s, Pa, N/m or m^2/s.
     pub value: Option<f64>,
     /// `profile`: a CSV file, `#` comments, a header, then the coordinate along the line and values. The case file
     /// gives its path from its own folder; [`Case::load`] leaves it as seen from the working directory.
@@ -570,6 +580,10 @@ pub struct Expectation {
     pub delay: Option<f64>,
     /// `sensor`, `noise`, `area`, `energy` and `period`: what comes before is left out, s; 0 where absent.
     pub after: Option<f64>,
+    /// `force`: the name of an obstacle; `flux`: that or a side.
+    pub on: Option<String>,
+    /// `difference`: the value at the first place less that at the second, m.
+    pub between: Option<[[f64; 2]; 2]>,
     /// Largest relative error (extremes), rms error over the profile's largest magnitude (profiles), or rms error over the rms
     /// of the exact field (errors).
     pub tolerance: f64,
@@ -600,6 +614,10 @@ pub enum Component {
     Gradient,
     /// Its Laplacian, 1/m^2: `error` alone.
     Laplacian,
+    /// Along x, N/m: `force` alone.
+    X,
+    /// Along y, N/m: `force` alone.
+    Y,
 }
 
 /// `{ x = 0.5 }`, the vertical line there, or `{ y = 0.5 }`, the horizontal one; m.
@@ -619,6 +637,12 @@ pub enum Measure {
     Profile,
     /// Root mean square difference from the exact solution over all points, at the end of the run.
     Error,
+    /// Of the fluid on an obstacle, per metre of depth.
+    Force,
+    /// Between two places.
+    Difference,
+    /// Volume flux out of the fluid through a side or an outline, per metre of depth.
+    Flux,
     /// The mean slope of the temperature across a side, into the domain, K/m.
     Slope,
     /// What has been lost of a tracer since the beginning, over what there was; of the velocity, what comes in and does not go out, over
@@ -662,6 +686,9 @@ impl Measure {
             Measure::Maximum => "maximum",
             Measure::Profile => "profile",
             Measure::Error => "error",
+            Measure::Force => "force",
+            Measure::Difference => "difference",
+            Measure::Flux => "flux",
             Measure::Slope => "slope",
             Measure::Loss => "loss",
             Measure::Front => "front",

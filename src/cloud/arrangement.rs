@@ -1,25 +1,42 @@
-//! Interior points: on a lattice, on a jittered lattice, or at random with a minimum distance.
+//! Interior points: on a lattice, on a jittered lattice, at random with a minimum distance, or at random and then relaxed.
 
 use glam::DVec2;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::sizing::Sizing;
 use super::wall::Lattice;
-use super::{CloudError, shortest};
+use super::{CloudError, relaxation, shortest};
 use crate::case::{Arrangement, Cloud};
 
 /// Throws per wanted point after which random placement gives up.
 const THROWS_PER_POINT: usize = 400;
 
-pub(super) fn interior(cloud: &Cloud, lattice: &Lattice, boundary: &[DVec2]) -> Result<Vec<DVec2>, CloudError> {
+/// The room that obstacles take: true of places that are free, and what it is worth in points.
+pub(super) struct Room<'a> {
+    pub free: &'a dyn Fn(DVec2) -> bool,
+    pub taken: usize,
+}
+
+pub(super) fn interior(
+    cloud: &Cloud,
+    lattice: &Lattice,
+    boundary: &[DVec2],
+    sizing: &Sizing,
+    room: &Room,
+) -> Result<Vec<DVec2>, CloudError> {
     let mut random = Uniform(Xoshiro256PlusPlus::seed_from_u64(cloud.seed()));
+    let free = |place: &DVec2| (room.free)(*place);
     match cloud.arrangement {
-        Arrangement::Regular => Ok(places(lattice).collect()),
+        Arrangement::Regular => Ok(places(lattice).filter(free).collect()),
         Arrangement::Jittered => {
             let reach = cloud.jitter() * cloud.spacing;
-            Ok(places(lattice).map(|place| place + reach * random.in_square()).collect())
+            Ok(places(lattice).map(|place| place + reach * random.in_square()).filter(free).collect())
         }
-        Arrangement::Random => random_points(cloud.minimum_distance(), cloud.spacing, lattice, boundary, &mut random),
+        Arrangement::Random => {
+            random_points(cloud.minimum_distance(), cloud.spacing, lattice, boundary, room, &mut random)
+        }
+        Arrangement::Relaxed => relaxation::scatter(sizing, &mut random, room.free),
     }
 }
 
@@ -45,11 +62,12 @@ fn random_points(
     spacing: f64,
     lattice: &Lattice,
     boundary: &[DVec2],
+    room: &Room,
     random: &mut Uniform,
 ) -> Result<Vec<DVec2>, CloudError> {
     const EMPTY: u32 = u32::MAX;
     let least = minimum_distance * spacing;
-    let (size, wanted) = (lattice.size, lattice.interior());
+    let (size, wanted) = (lattice.size, lattice.interior().saturating_sub(room.taken));
     let [x, y] = lattice.periodic;
     let period = DVec2::new(if x { size.x } else { 0.0 }, if y { size.y } else { 0.0 });
     let mut square = DVec2::splat(least * std::f64::consts::FRAC_1_SQRT_2);
@@ -72,6 +90,9 @@ fn random_points(
     while placed.len() < full && throws > 0 {
         throws -= 1;
         let place = random.in_unit_square() * size;
+        if !(room.free)(place) {
+            continue;
+        }
         let at = square_of(place);
         let near = |axis: usize| {
             let (at, count) = (at[axis], squares[axis]);
@@ -107,14 +128,14 @@ pub(super) fn sort_by_cell(position: &mut [DVec2], cell: f64) {
 }
 
 /// Uniform numbers in [0, 1) with 53 bits.
-struct Uniform(Xoshiro256PlusPlus);
+pub(super) struct Uniform(Xoshiro256PlusPlus);
 
 impl Uniform {
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn in_unit_square(&mut self) -> DVec2 {
+    pub fn in_unit_square(&mut self) -> DVec2 {
         let x = self.unit();
         DVec2::new(x, self.unit())
     }

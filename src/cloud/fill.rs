@@ -54,7 +54,8 @@ pub(super) fn build(case: &Case, fill: &Fill) -> Cloud {
     // Between mirrors the lattice is fitted to the fill: what the points are measured against is its own spacing.
     let spacing = if walls { spacing } else { (x.step * y.step).sqrt() };
     let filled = Some(x.step * y.step);
-    Cloud { interior, pressured, normal, position, sides, filled, spacing, size, period: DVec2::ZERO }
+    let (outlines, local, period) = (Vec::new(), None, DVec2::ZERO);
+    Cloud { interior, pressured, normal, position, sides, outlines, filled, spacing, local, size, period }
 }
 
 /// Where the fluid ends inside the domain.

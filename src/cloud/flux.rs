@@ -37,16 +37,26 @@ pub struct Fluxes {
 type Mean = Vec<(u32, f64)>;
 
 impl Fluxes {
-    /// Fits on the faces of `cells`; `radius`, m, is that of a point's neighbourhood.
-    pub fn build(cloud: &Cloud, cells: &Cells, radius: f64) -> Self {
-        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, (REACH + FARTHEST) * radius);
+    /// Fits on the faces of `cells`; the radius of a point's neighbourhood is so many `spacings`.
+    pub fn build(cloud: &Cloud, cells: &Cells, spacings: f64) -> Self {
+        let seen = (REACH + FARTHEST) * spacings;
+        let cell = match &cloud.local {
+            Some(_) => (cloud.area() / cloud.len() as f64).sqrt(),
+            None => cloud.spacing,
+        };
+        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, seen * cell);
         // Of the faces to points that come later: each once.
         let means = |point: usize| -> Vec<(usize, Mean)> {
-            let around = Around::new(cloud, &grid, point, REACH * radius);
-            let later = (cells.start[point]..cells.start[point + 1])
+            let later: Vec<usize> = (cells.start[point]..cells.start[point + 1])
                 .filter(|&face| cells.neighbour[face] as usize > point)
-                .map(|face| (face, around.mean(cloud, cells, face)));
-            later.collect()
+                .collect();
+            // Of a face, the mean of its two points'.
+            let spacing =
+                |face: usize| 0.5 * (cloud.spacing_at(point) + cloud.spacing_at(cells.neighbour[face] as usize));
+            let widest = later.iter().map(|&face| spacing(face)).fold(0.0, f64::max);
+            let around = Around::new(cloud, &grid, point, seen * widest);
+            let mean = |face: usize| (face, around.mean(cloud, cells, face, REACH * spacings * spacing(face)));
+            later.into_iter().map(mean).collect()
         };
         let means: Vec<Vec<(usize, Mean)>> = (0..cloud.len()).into_par_iter().map(means).collect();
         let row = |point: usize| -> Vec<(u32, DVec2)> {
@@ -97,34 +107,33 @@ impl Fluxes {
 /// The points that the faces of one may see, and how far they are from it.
 struct Around {
     point: usize,
-    /// Of a fit, m.
-    radius: f64,
     near: Vec<(u32, DVec2)>,
 }
 
 impl Around {
-    fn new(cloud: &Cloud, grid: &Grid, point: usize, radius: f64) -> Self {
+    /// Those within `reach`, m, and some more.
+    fn new(cloud: &Cloud, grid: &Grid, point: usize, reach: f64) -> Self {
         let own = cloud.position[point];
         let offset = |other: usize| (other as u32, shortest(cloud.position[other] - own, cloud.period));
-        let near = (0..=1).flat_map(|ring| grid.ring(own, ring)).map(offset);
-        Self { point, radius, near: near.collect() }
+        Self { point, near: grid.within(own, reach).map(offset).collect() }
     }
 
-    fn mean(&self, cloud: &Cloud, cells: &Cells, face: usize) -> Mean {
+    /// `radius` is that of the fit, m.
+    fn mean(&self, cloud: &Cloud, cells: &Cells, face: usize, radius: f64) -> Mean {
         let other = cells.neighbour[face];
         let on_walls = self.point >= cloud.interior && other as usize >= cloud.interior;
-        let fitted = if on_walls { None } else { self.fitted(cloud, cells, face) };
+        let fitted = if on_walls { None } else { self.fitted(cloud, cells, face, radius) };
         fitted.unwrap_or_else(|| vec![(self.point as u32, 0.5), (other, 0.5)])
     }
 
-    fn fitted(&self, cloud: &Cloud, cells: &Cells, face: usize) -> Option<Mean> {
-        let Self { point, radius, near } = self;
+    fn fitted(&self, cloud: &Cloud, cells: &Cells, face: usize, radius: f64) -> Option<Mean> {
+        let Self { point, near } = self;
         let across = shortest(cloud.position[cells.neighbour[face] as usize] - cloud.position[*point], cloud.period);
         let along = across.perp() / across.length();
         let middle = 0.5 * across + cells.shift[face] * along;
         let half = 0.5 * cells.weight[face] * across.length() * along;
         let basis = |place: DVec2| {
-            let [x, y] = ((place - middle) / *radius).to_array();
+            let [x, y] = ((place - middle) / radius).to_array();
             [1.0, x, y, x * x, x * y, y * y]
         };
         // 0 from the radius on.

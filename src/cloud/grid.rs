@@ -72,6 +72,12 @@ impl Grid {
         ring as f64 * self.cell.min_element()
     }
 
+    /// The points of the rings that hold all within `distance`, m, of `place`, and some more.
+    pub fn within(&self, place: DVec2, distance: f64) -> impl Iterator<Item = usize> + '_ {
+        let last = (1..=self.rings()).find(|&ring| self.reach(ring) >= distance).unwrap_or(self.rings());
+        (0..=last).flat_map(move |ring| self.ring(place, ring))
+    }
+
     /// Number of rings after which there is nothing left to find.
     pub fn rings(&self) -> usize {
         self.cells.max_element()

@@ -1,21 +1,32 @@
-//! Where the points are: a rectangle filled with points, on its walls and inside.
+//! Where the points are: a rectangle filled with points, on its walls, on the outlines of obstacles in it, and between.
 
 mod arrangement;
+mod error;
 mod fill;
 pub mod flux;
 pub mod grid;
 mod groups;
+mod layers;
 mod open;
+mod outline;
 mod period;
+mod relaxation;
+mod shape;
+mod sizing;
 pub mod voronoi;
 mod wall;
 
 use glam::DVec2;
 
 use crate::case;
+use arrangement::Room;
+pub use error::CloudError;
 pub use groups::first_apart;
 pub use open::{OpenPoint, open_points};
+pub use outline::{Outline, Traced, outlines};
 pub use period::{inside, shortest};
+pub use shape::Shape;
+pub use sizing::Sizing;
 pub use wall::Side;
 
 /// The points of a scene at their initial places, interior points first, boundary points last.
@@ -33,32 +44,18 @@ pub struct Cloud {
     pub filled: Option<f64>,
     /// Outward unit normals of the boundary points, `position[interior..]`; at a corner, of the mean of its two sides.
     pub normal: Vec<DVec2>,
-    /// The sides of the rectangle that each boundary point lies on: one, or two at a corner.
+    /// The sides of the rectangle that each boundary point lies on: one, two at a corner, none on an outline.
     pub sides: Vec<Vec<Side>>,
-    /// Mean distance of neighbouring points, `l0`, m.
+    /// The outlines of obstacles; their points follow those on the sides.
+    pub outlines: Vec<Outline>,
+    /// Mean distance of neighbouring points, `l0`, m; the largest where it varies.
     pub spacing: f64,
+    /// The same around every point, m; `None` where it is `spacing` everywhere.
+    pub local: Option<Vec<f64>>,
     /// Width and height of the rectangle, m.
     pub size: DVec2,
     /// Lengths after which it repeats along x and y, m: its own, or 0 along an axis that ends at walls.
     pub period: DVec2,
-}
-
-/// Why a cloud could not be laid out.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CloudError {
-    #[error(
-        "cloud.minimum_distance = {minimum_distance}: only {placed} of {wanted} random points fit; allowed: about 0.7 or less"
-    )]
-    Jammed { minimum_distance: f64, placed: usize, wanted: usize },
-    #[error(
-        "points {first} and {second} coincide at ({x}, {y}) m: no derivative exists between them; \
-         allowed: any two points at least {least:e} m apart"
-    )]
-    Coincident { first: usize, second: usize, x: f64, y: f64, least: f64 },
-    #[error("point {point} at ({x}, {y}) m is outside the domain, {width} x {height} m")]
-    Outside { point: usize, x: f64, y: f64, width: f64, height: f64 },
-    #[error("{0}")]
-    Malformed(&'static str),
 }
 
 /// What rounding may put a point on a wall beside it, in spacings.
@@ -74,24 +71,97 @@ impl Cloud {
             return Ok(fill::build(case, fill));
         }
         let lattice = wall::Lattice { size, cells, periodic: case.domain.periodic.each() };
-        let (boundary, sides) = wall::points(&lattice);
-        let mut position = arrangement::interior(&case.cloud, &lattice, &boundary)?;
-        arrangement::sort_by_cell(&mut position, 2.0 * case.cloud.spacing);
-        let interior = position.len();
-        position.extend(boundary);
-        let normal = sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize());
-        let cloud = Self {
-            interior,
-            normal: normal.collect(),
-            pressured: position.len(),
-            filled: None,
-            position,
+        let sizing = Sizing::of(case);
+        let relaxed = case.cloud.arrangement == case::Arrangement::Relaxed;
+        let (mut boundary, mut sides) = match relaxed {
+            true => wall::graded_points(&sizing, lattice.periodic),
+            false => wall::points(&lattice),
+        };
+        let mut normal: Vec<DVec2> =
+            sides.iter().map(|sides| sides.iter().map(|side| side.normal()).sum::<DVec2>().normalize()).collect();
+        let mut outlines = outline::place(case, &mut boundary, &mut normal)?;
+        sides.resize(boundary.len(), Vec::new());
+        let mut cloud = Self {
+            interior: 0,
+            normal,
+            position: vec![],
             sides,
+            outlines: outlines.clone(),
+            pressured: 0,
+            filled: None,
             spacing: case.cloud.spacing,
+            local: None,
             size,
             period,
         };
+        let layers = match relaxed {
+            true => {
+                let distance = |place: DVec2| cloud.beside(place).min(cloud.clearance(place));
+                layers::layers(&boundary, &cloud.normal, &sizing, period, &distance)
+            }
+            false => vec![],
+        };
+        let taken = grid::Grid::new(&layers, size, period, sizing.least());
+        let free = |place: DVec2| {
+            let spacing = sizing.at(place);
+            let room = relaxation::CLEARANCE * spacing;
+            let reach = relaxation::APART * spacing;
+            let mut near = taken.within(place, reach);
+            cloud.clearance(place) > room
+                && (!relaxed || cloud.beside(place) > room)
+                && !near.any(|other| shortest(layers[other] - place, period).length() < reach)
+        };
+        let room = Room { free: &free, taken: cloud.taken() };
+        let mut position = arrangement::interior(&case.cloud, &lattice, &boundary, &sizing, &room)?;
+        let scattered = position.len();
+        position.extend(&layers);
+        cloud.interior = position.len();
+        outlines.iter_mut().for_each(|outline| {
+            outline.points.start += position.len();
+            outline.points.end += position.len();
+        });
+        position.extend(boundary);
+        (cloud.position, cloud.outlines) = (position, outlines);
+        outline::check(&cloud, &sizing)?;
+        match relaxed {
+            true => relaxation::relax(&mut cloud, scattered, &sizing),
+            false => relaxation::relax_near_outlines(&mut cloud, &sizing),
+        }
+        arrangement::sort_by_cell(&mut cloud.position[..cloud.interior], 2.0 * case.cloud.spacing);
+        cloud.pressured = cloud.position.len();
+        if !sizing.is_even() {
+            cloud.local = Some(cloud.position.iter().map(|&place| sizing.at(place)).collect());
+        }
         Ok(cloud)
+    }
+
+    /// Distance from a place to the nearest outline, negative inside an obstacle, m; infinite without obstacles.
+    pub fn clearance(&self, place: DVec2) -> f64 {
+        self.outlines.iter().map(|outline| outline.shape.distance(place)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance from a place to the nearest side, m; infinite where the domain repeats.
+    fn beside(&self, place: DVec2) -> f64 {
+        let beside = place.min(self.size - place);
+        DVec2::select(self.period.cmpgt(DVec2::ZERO), DVec2::INFINITY, beside).min_element()
+    }
+
+    /// The mean distance of neighbouring points around one, m.
+    pub fn spacing_at(&self, point: usize) -> f64 {
+        self.local.as_ref().map_or(self.spacing, |local| local[point])
+    }
+
+    /// Area of the fluid, m^2.
+    pub fn area(&self) -> f64 {
+        self.size.x * self.size.y - self.outlines.iter().map(|outline| outline.shape.area()).sum::<f64>()
+    }
+
+    /// About how many interior points of a lattice the obstacles take the room of.
+    fn taken(&self) -> usize {
+        let of = |outline: &Outline| {
+            outline.shape.area() / (self.spacing * self.spacing) + 0.5 * outline.points.len() as f64
+        };
+        self.outlines.iter().map(of).sum::<f64>().round() as usize
     }
 
     /// What every cloud has to be, whoever laid it out.
@@ -116,7 +186,8 @@ impl Cloud {
         let slack = ROUNDING * self.spacing;
         let along = |at: f64, length: f64| at >= -slack && at <= length + slack;
         let outside = |place: &DVec2| !(along(place.x, self.size.x) && along(place.y, self.size.y));
-        match self.position.iter().position(outside) {
+        // Points behind walls of points lie beyond it.
+        match self.position[..self.pressured.min(self.len())].iter().position(outside) {
             Some(point) => {
                 let (DVec2 { x, y }, DVec2 { x: width, y: height }) = (self.position[point], self.size);
                 Err(CloudError::Outside { point, x, y, width, height })
@@ -135,7 +206,7 @@ impl Cloud {
     }
 
     /// The volume that each point stands for where no cells are built, m^2: `l0^2` inside, half on a side, a quarter
-    /// at a corner. It sums to the area of the rectangle.
+    /// at a corner. Without obstacles it sums to the area of the rectangle.
     pub fn nominal_volume(&self) -> Vec<f64> {
         if let Some(volume) = self.filled {
             let others = std::iter::repeat_n(0.0, self.len() - self.interior);
@@ -143,12 +214,12 @@ impl Cloud {
         }
         let [nx, ny] = wall::cells(self.size, self.spacing);
         let cell = self.size.x * self.size.y / (nx * ny) as f64;
-        let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len()));
+        let boundary = self.sides.iter().map(|sides| cell / f64::from(1u32 << sides.len().max(1)));
         std::iter::repeat_n(cell, self.interior).chain(boundary).collect()
     }
 
     /// The velocity that the sides prescribe at each boundary point, m/s. A corner takes what its sides agree on, of those that
-    /// prescribe one, else it rests: below a lid it belongs to the side wall. Rest where no side does.
+    /// prescribe one, else it rests: below a lid it belongs to the side wall. Rest where no side does, and on obstacles.
     pub fn wall_velocity(&self, boundaries: &case::Boundaries) -> Vec<DVec2> {
         let agreed = |(sides, &place): (&Vec<Side>, &DVec2)| {
             let mut given = sides.iter().filter_map(|side| side.velocity(boundaries, place, self.size));

@@ -26,16 +26,19 @@ const TERMS: usize = 4;
 /// Least pivot, relative to the diagonal entry it came from.
 const LEAST_PIVOT: f64 = 1e-8;
 
-/// The points of the sides that follow the fluid, unless another side of theirs prescribes a velocity; `radius`, m, is that of a
-/// neighbourhood.
-pub fn open_points(cloud: &Cloud, boundaries: &Boundaries, radius: f64) -> Vec<OpenPoint> {
+/// The points of the sides that follow the fluid, unless another side of theirs prescribes a velocity; the radius of
+/// a point's neighbourhood is so many `spacings` of its own.
+pub fn open_points(cloud: &Cloud, boundaries: &Boundaries, spacings: f64) -> Vec<OpenPoint> {
     let kind = |side: &Side| side.wall(boundaries).kind;
     let follows = |side: &Side| matches!(kind(side), SideKind::Slip | SideKind::Outlet);
-    let is_open = |point: usize| point >= cloud.interior && cloud.sides[point - cloud.interior].iter().all(follows);
-    let grid = Grid::new(&cloud.position, cloud.size, cloud.period, radius);
+    // A point of an obstacle is on no side, and rests.
+    let open = |sides: &[Side]| !sides.is_empty() && sides.iter().all(follows);
+    let is_open = |point: usize| point >= cloud.interior && open(&cloud.sides[point - cloud.interior]);
+    let grid = Grid::new(&cloud.position, cloud.size, cloud.period, spacings * cloud.spacing);
     let make = |point: usize| {
         let (own, sides) = (cloud.position[point], &cloud.sides[point - cloud.interior]);
-        let around = (0..=1).flat_map(|ring| grid.ring(own, ring)).filter(|&other| !is_open(other));
+        let radius = spacings * cloud.spacing_at(point);
+        let around = grid.within(own, radius).filter(|&other| !is_open(other));
         let near: Vec<(usize, DVec2)> = around
             .map(|other| (other, shortest(cloud.position[other] - own, cloud.period) / radius))
             .filter(|(_, offset)| offset.length_squared() < 1.0)

@@ -1,16 +1,24 @@
-//! Voronoi cells of the points, clipped by the walls of the rectangle: the geometry of the conservative pressure equation.
+//! Voronoi cells of the points, clipped by the walls of the rectangle and the outlines of obstacles: the geometry of the
+//! conservative pressure equation.
 //!
 //! Every point clips its own cell from the bisectors with the points around it; no mesh is stored. A pair of points
 //! that share a face of length `A_ij` gets one weight `w_ij = w_ji = A_ij / |d_ij|`, and every point its volume `V_i`.
 //! Then `sum_j w_ij d_ij = -A_i n_i`, `4 V_i = sum_j w_ij |d_ij|^2` inside, and the volumes sum to the area. Along an axis that
 //! repeats there is no wall, and offsets go the shortest way.
+//!
+//! Cells of points on outlines, and no others, touch these (`outline.rs`). Such a cell is cut along the middle of the angle that
+//! the fluid has at its point: each half is convex, whatever the angle, and ends at the straight way from the point to the
+//! place where the next cell begins. What lies between that way and a curved outline is counted in the volume.
 //! Units: m for faces, m^2 for volumes; the weights have none.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::grid::Grid;
-use super::{Cloud, inside, shortest};
+use super::{Cloud, Side, inside, shortest};
 
 /// Faces shorter than this fraction of the spacing are left out: lattice points that touch at a corner alone.
 const LEAST_FACE: f64 = 1e-7;
@@ -32,15 +40,24 @@ pub struct Cells {
     pub walls: Vec<WallPiece>,
 }
 
-/// The part of one side of the rectangle that lies on one cell.
+/// The part of one side of the rectangle, or of half the way to the next point of an outline, that lies on one cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPiece {
     /// Whose cell it is on.
     pub point: usize,
+    pub of: Boundary,
     /// m
     pub middle: DVec2,
     /// `A_i n_i`: outward, as long as the piece, m.
     pub area: DVec2,
+}
+
+/// What a piece of wall belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Boundary {
+    Side(Side),
+    /// Its number in the case.
+    Obstacle(usize),
 }
 
 /// One cell on its own.
@@ -62,8 +79,10 @@ struct Face {
 impl Cells {
     /// Clips the cells of a cloud.
     pub fn build(cloud: &Cloud) -> Self {
-        let grid = Grid::new(&cloud.position, cloud.size, cloud.period, 1.5 * cloud.spacing);
-        let mut cells: Vec<Cell> = (0..cloud.len()).into_par_iter().map(|point| clip(cloud, point, &grid)).collect();
+        let grid = grid(cloud);
+        let corners = corners(cloud);
+        let mut cells: Vec<Cell> =
+            (0..cloud.len()).into_par_iter().map(|point| clip(cloud, point, &grid, corners.get(&point))).collect();
         symmetrise(&mut cells);
         let mut start = Vec::with_capacity(cells.len() + 1);
         start.push(0);
@@ -87,16 +106,19 @@ impl Cells {
         range.map(|face| (self.neighbour[face] as usize, self.weight[face]))
     }
 
-    /// The volume flux out of every cell through the walls, m^2/s, where the fluid at a place on them moves with `velocity`,
-    /// m/s. The midpoint rule leaves a little over, of second order in the spacing, which is spread over the walls: as much
-    /// flows in as out.
-    pub fn wall_flux(&self, velocity: &dyn Fn(DVec2) -> DVec2) -> Vec<f64> {
+    /// The volume flux out of every cell through the walls, m^2/s, where the fluid in the middle of a piece of them moves with
+    /// `velocity`, m/s. The midpoint rule leaves a little over, of second order in the spacing, which is spread over what lets fluid through:
+    /// as much flows in as out.
+    pub fn wall_flux(&self, velocity: &dyn Fn(&WallPiece) -> DVec2) -> Vec<f64> {
         let mut flux = vec![0.0; self.volume.len()];
-        let through = |piece: &WallPiece| velocity(piece.middle).dot(piece.area);
-        let length: f64 = self.walls.iter().map(|piece| piece.area.length()).sum();
-        let excess = self.walls.iter().map(through).sum::<f64>() / length;
-        for piece in &self.walls {
-            flux[piece.point] += through(piece) - excess * piece.area.length();
+        let through = |piece: &WallPiece| velocity(piece).dot(piece.area);
+        // Over what lets something through: a wall stays tight.
+        let open: Vec<(&WallPiece, f64)> =
+            self.walls.iter().map(|piece| (piece, through(piece))).filter(|&(_, flux)| flux != 0.0).collect();
+        let length: f64 = open.iter().map(|(piece, _)| piece.area.length()).sum();
+        let excess = open.iter().map(|(_, flux)| flux).sum::<f64>() / length.max(f64::MIN_POSITIVE);
+        for (piece, through) in open {
+            flux[piece.point] += through - excess * piece.area.length();
         }
         flux
     }
@@ -110,12 +132,48 @@ impl Cells {
 /// What lies across an edge of a cell.
 #[derive(Clone, Copy, PartialEq)]
 enum Across {
-    Wall,
+    Wall(Boundary),
     Point(u32),
+    /// The other half of the same cell.
+    Half,
+}
+
+/// An outline as one of its points sees it.
+#[derive(Clone, Copy)]
+struct Corner {
+    obstacle: usize,
+    /// The ways to the ends of the cell's pieces of it: back and on, anticlockwise round the obstacle, m.
+    ways: [DVec2; 2],
+    /// What the obstacle has beyond these ways, m^2.
+    bulge: f64,
+}
+
+/// The points of outlines, and how these look there.
+fn corners(cloud: &Cloud) -> BTreeMap<usize, Corner> {
+    let mut corners = BTreeMap::new();
+    for (obstacle, outline) in cloud.outlines.iter().enumerate() {
+        let count = outline.points.len();
+        for k in 0..count {
+            let (point, before) = (outline.points.start + k, (k + count - 1) % count);
+            let own = cloud.position[point];
+            let ways = [outline.middle[before] - own, outline.middle[k] - own];
+            corners.insert(point, Corner { obstacle, ways, bulge: outline.bulge[before] + outline.bulge[k] });
+        }
+    }
+    corners
+}
+
+/// The points sorted for the search of those around a cell.
+pub(super) fn grid(cloud: &Cloud) -> Grid {
+    let typical = match &cloud.local {
+        Some(_) => (cloud.area() / cloud.len() as f64).sqrt(),
+        None => cloud.spacing,
+    };
+    Grid::new(&cloud.position, cloud.size, cloud.period, 1.5 * typical)
 }
 
 /// A convex polygon; edge `k` runs from corner `k` to the next, relative to the cell's point.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Polygon {
     corners: Vec<(DVec2, Across)>,
     scratch: Vec<(DVec2, Across)>,
@@ -153,17 +211,22 @@ impl Polygon {
     }
 }
 
-fn clip(cloud: &Cloud, point: usize, grid: &Grid) -> Cell {
-    let Cloud { position, size, period, spacing, .. } = cloud;
+/// The Voronoi cell of a point in the rectangle.
+fn polygon(cloud: &Cloud, point: usize, grid: &Grid) -> Polygon {
+    let Cloud { position, size, period, .. } = cloud;
     let own = position[point];
     // From wall to wall; along a period as far as the point's own image can matter.
     let repeats = period.cmpgt(DVec2::ZERO);
     let low = DVec2::select(repeats, -0.5 * *period, -own);
     let high = DVec2::select(repeats, 0.5 * *period, *size - own);
     let mut polygon = Polygon::default();
-    polygon
-        .corners
-        .extend([low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|corner| (corner, Across::Wall)));
+    let sides = [
+        (low, Side::Bottom),
+        (DVec2::new(high.x, low.y), Side::Right),
+        (high, Side::Top),
+        (DVec2::new(low.x, high.y), Side::Left),
+    ];
+    polygon.corners.extend(sides.map(|(corner, side)| (corner, Across::Wall(Boundary::Side(side)))));
     // Ring by ring, until no point farther away can reach the cell.
     for ring in 0..=grid.rings() {
         for other in grid.ring(own, ring).filter(|&other| other != point) {
@@ -174,32 +237,97 @@ fn clip(cloud: &Cloud, point: usize, grid: &Grid) -> Cell {
             break;
         }
     }
-    let mut cell = Cell { volume: 0.0, faces: Vec::with_capacity(polygon.corners.len()), walls: Vec::new() };
-    for k in 0..polygon.corners.len() {
-        let (from, across) = polygon.corners[k];
-        let (to, _) = polygon.corners[(k + 1) % polygon.corners.len()];
-        cell.volume += 0.5 * from.perp_dot(to);
-        let length = from.distance(to);
-        if length <= LEAST_FACE * spacing {
-            continue;
-        }
-        match across {
-            Across::Point(other) => {
-                let offset = shortest(position[other as usize] - own, *period);
-                let distance = offset.length();
-                // The middle between the points lies on the face's line.
-                let shift = 0.5 * (from + to).dot(offset.perp()) / distance;
-                cell.faces.push(Face { neighbour: other, weight: length / distance, shift });
-            }
-            // Corners run against the clock: outward is to the right.
-            Across::Wall => {
-                let middle = inside(own + 0.5 * (from + to), *period);
-                cell.walls.push(WallPiece { point, middle, area: -(to - from).perp() });
-            }
+    polygon
+}
+
+/// The middle of a cell that touches no outline, weighted with `density`, as an offset from nowhere: a place, m. The weight is
+/// that of the middle of each triangle between the point and an edge.
+pub(super) fn middle(cloud: &Cloud, point: usize, grid: &Grid, density: &dyn Fn(DVec2) -> f64) -> DVec2 {
+    let own = cloud.position[point];
+    let corners = polygon(cloud, point, grid).corners;
+    let (mut mass, mut moment) = (0.0, DVec2::ZERO);
+    for k in 0..corners.len() {
+        let (from, to) = (corners[k].0, corners[(k + 1) % corners.len()].0);
+        let centre = (from + to) / 3.0;
+        let part = 0.5 * from.perp_dot(to) * density(own + centre);
+        mass += part;
+        moment += part * centre;
+    }
+    own + moment / mass
+}
+
+/// The half of a polygon that lies anticlockwise of `from` and clockwise of `to`, less than half a turn apart.
+fn half(polygon: &Polygon, (from, before): (DVec2, Across), (to, after): (DVec2, Across)) -> Polygon {
+    let mut half = polygon.clone();
+    half.cut(-from.perp(), 0.0, before);
+    half.cut(to.perp(), 0.0, after);
+    half
+}
+
+fn clip(cloud: &Cloud, point: usize, grid: &Grid, corner: Option<&Corner>) -> Cell {
+    let whole = polygon(cloud, point, grid);
+    let mut cell = Cell { volume: 0.0, faces: Vec::with_capacity(whole.corners.len()), walls: Vec::new() };
+    match corner {
+        None => cell.add(cloud, point, &whole),
+        Some(&Corner { obstacle, ways: [back, on], bulge }) => {
+            // The fluid is anticlockwise of the way back.
+            let turn = back.angle_to(on).rem_euclid(TAU);
+            let between = DVec2::from_angle(0.5 * turn).rotate(back);
+            let (wall, cut) = (Across::Wall(Boundary::Obstacle(obstacle)), (between, Across::Half));
+            cell.add(cloud, point, &half(&whole, (back, wall), cut));
+            cell.add(cloud, point, &half(&whole, cut, (on, wall)));
+            cell.volume -= bulge;
+            cell.join();
         }
     }
     cell.faces.sort_unstable_by_key(|face| face.neighbour);
     cell
+}
+
+impl Cell {
+    /// Takes in a convex part.
+    fn add(&mut self, cloud: &Cloud, point: usize, part: &Polygon) {
+        let Cloud { position, period, .. } = cloud;
+        let own = position[point];
+        for k in 0..part.corners.len() {
+            let (from, across) = part.corners[k];
+            let (to, _) = part.corners[(k + 1) % part.corners.len()];
+            self.volume += 0.5 * from.perp_dot(to);
+            let length = from.distance(to);
+            if length <= LEAST_FACE * cloud.spacing_at(point) {
+                continue;
+            }
+            match across {
+                Across::Point(other) => {
+                    let offset = shortest(position[other as usize] - own, *period);
+                    let distance = offset.length();
+                    // The middle between the points lies on the face's line.
+                    let shift = 0.5 * (from + to).dot(offset.perp()) / distance;
+                    self.faces.push(Face { neighbour: other, weight: length / distance, shift });
+                }
+                // Corners run against the clock: outward is to the right.
+                Across::Wall(of) => {
+                    let middle = inside(own + 0.5 * (from + to), *period);
+                    self.walls.push(WallPiece { point, of, middle, area: -(to - from).perp() });
+                }
+                Across::Half => {}
+            }
+        }
+    }
+
+    /// Joins the two pieces of a face that the cut between the halves runs through.
+    fn join(&mut self) {
+        self.faces.sort_by_key(|face| face.neighbour);
+        self.faces.dedup_by(|other, face| {
+            let same = other.neighbour == face.neighbour;
+            if same {
+                let weight = face.weight + other.weight;
+                face.shift = (face.weight * face.shift + other.weight * other.shift) / weight;
+                face.weight = weight;
+            }
+            same
+        });
+    }
 }
 
 /// Gives both sides of every face the mean of what they found; a face seen from one side alone is a rounding matter

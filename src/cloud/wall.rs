@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use glam::DVec2;
 
+use super::outline::divided;
+use super::sizing::Sizing;
 use crate::case::{Boundaries, SideKind, SideProfile, Wall};
 
 /// One side of the rectangle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
     Left,
     Right,
@@ -119,4 +121,42 @@ pub(super) fn points(lattice: &Lattice) -> (Vec<DVec2>, Vec<Vec<Side>>) {
         touching.iter().filter(|(on, _)| *on).map(|&(_, side)| side).collect()
     });
     (position, sides.collect())
+}
+
+/// The same, as far apart as `sizing` says.
+pub(super) fn graded_points(sizing: &Sizing, [x, y]: [bool; 2]) -> (Vec<DVec2>, Vec<Vec<Side>>) {
+    let size = sizing.size();
+    let (mut position, mut sides) = (Vec::new(), Vec::new());
+    let mut put = |place: DVec2| {
+        let touching = [
+            (!x && place.x == 0.0, Side::Left),
+            (!x && place.x == size.x, Side::Right),
+            (!y && place.y == 0.0, Side::Bottom),
+            (!y && place.y == size.y, Side::Top),
+        ];
+        position.push(place);
+        sides.push(touching.iter().filter(|(on, _)| *on).map(|&(_, side)| side).collect());
+    };
+    // The far end of an axis that repeats is the near one again.
+    let until_end = |mut cuts: Vec<f64>, periodic: bool| {
+        if periodic {
+            cuts.pop();
+        }
+        cuts
+    };
+    for height in if y { vec![] } else { vec![0.0, size.y] } {
+        let at = |share: f64| DVec2::new(share * size.x, height);
+        let cuts = divided(size.x, &|share| sizing.at(at(share)));
+        until_end(cuts, x).into_iter().for_each(|share| put(at(share)));
+    }
+    for width in if x { vec![] } else { vec![0.0, size.x] } {
+        let at = |share: f64| DVec2::new(width, share * size.y);
+        let mut cuts = until_end(divided(size.y, &|share| sizing.at(at(share))), y);
+        if !y {
+            // The corners are there already.
+            cuts.retain(|share| (0.0 < *share) && (*share < 1.0));
+        }
+        cuts.into_iter().for_each(|share| put(at(share)));
+    }
+    (position, sides)
 }

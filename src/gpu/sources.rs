@@ -68,6 +68,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
             stage!("build_cells/sort", Cells),
         ]),
         Operation::FindNeighbours(_) => once(stage!("find_neighbours", Points)),
+        Operation::FindLocalNeighbours => once(stage!("find_local_neighbours", Points)),
         Operation::Factorise(_) => once(stage!("factorise", Points)),
         Operation::WidenSupport(_) => once(stage!("widen_support", Points)),
         Operation::AssembleLaplacian => once(stage!("assemble_laplacian", Points)),

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::cloud::CloudError;
+
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeasureError {
     #[error("there are no points to measure")]
@@ -14,4 +16,6 @@ pub enum MeasureError {
     Length { field: &'static str, found: usize, points: usize },
     #[error("expect.{name}: {what}")]
     Expectation { name: String, what: String },
+    #[error(transparent)]
+    Cloud(#[from] CloudError),
 }

@@ -8,7 +8,7 @@ use super::history;
 use super::line::TEMPERATURE;
 use super::loss::{amounts, flows};
 use super::slope::mean_slope;
-use super::{FieldError, LineMeasure, MeasureError, Profile, Sampler};
+use super::{FieldError, LineMeasure, MeasureError, Probe, Profile, Sampler};
 use crate::case::{Case, Component, Expectation, Line, Measure};
 use crate::exact::Exact;
 use crate::known::Known;
@@ -24,8 +24,9 @@ pub struct ExpectationResult {
     /// Coordinate of the computed extreme along the line, m; time of the largest difference of a front or an area, s; the
     /// others have none.
     pub position: Option<f64>,
-    /// The computed extreme, or the rms difference from the profile or the exact field; m/s or Pa. Of points that move:
-    /// the front, the area or the energy where it is farthest off, a sensor's mean or its rms about it, Pa.
+    /// The computed extreme, force, difference or flux, or the rms difference from the profile or the exact field; m/s, Pa, N/m or
+    /// m^2/s. Of points that move: the front, the area or the energy where it is farthest off, a sensor's mean or its rms about
+    /// it, Pa.
     pub value: Option<f64>,
     /// The published extreme, the published profile's largest magnitude, or the rms of the exact field; m/s or Pa. Of
     /// points that move: the published front there, 1 of an area, the energy at the start, the published mean or the computed one of noise, Pa.
@@ -63,7 +64,7 @@ pub fn evaluate_run(
     if case.expect.is_empty() {
         return Ok(Vec::new());
     }
-    let sampler = Sampler::periodic(&snapshot.position, case.cloud.spacing, case.domain.period())?;
+    let sampler = Sampler::of(case, &snapshot.position)?;
     let exact = Exact::of(case);
     // A point that is not a number fails every row, however far from the row's line.
     let finite = snapshot.velocity.iter().all(|u| u.is_finite())
@@ -101,6 +102,11 @@ pub fn evaluate_run(
                         None => FieldError::new(snapshot, exact, component),
                     });
                     Found::of_field(known.or(flow).ok_or_else(|| fail("there is no exact solution"))?)
+                }
+                Measure::Force | Measure::Difference | Measure::Flux => {
+                    let value = Probe::of_expectation(name, row, case, &sampler)?.value(snapshot);
+                    let reference = row.value.ok_or_else(|| fail("`value` is missing"))?;
+                    Found { position: None, value, reference, difference: (value - reference).abs() }
                 }
                 _ => {
                     let at = row.line.ok_or_else(|| fail("`line` is missing"))?;
@@ -191,8 +197,19 @@ fn quantity(row: &Expectation) -> String {
         Some(Component::Tracer) => row.tracer.as_deref().unwrap_or("a tracer"),
         Some(Component::Gradient) => "the gradient",
         Some(Component::Laplacian) => "the Laplacian",
+        Some(Component::X) => "along x",
+        Some(Component::Y) => "along y",
         None => return history::quantity(row),
     };
+    if let Some([from, to]) = row.between {
+        return format!("{measure} {component} between {from:?} and {to:?}");
+    }
+    if let Some(on) = &row.on {
+        return match row.measure {
+            Measure::Force => format!("{measure} {component} on {on}"),
+            _ => format!("{measure} {component} out through {on}"),
+        };
+    }
     match row.line {
         Some(Line::X(x)) => format!("{measure} {component} along x = {x}"),
         Some(Line::Y(y)) => format!("{measure} {component} along y = {y}"),
@@ -217,6 +234,8 @@ mod tests {
             value,
             profile: None,
             column: None,
+            on: None,
+            between: None,
             tracer: None,
             side: None,
             sensor: None,

@@ -54,7 +54,9 @@ impl<'a> LineMeasure<'a> {
             // Both at once: how fast.
             Component::Velocity => snapshot.velocity.iter().map(|u| u.length()).collect(),
             // Nothing measures them along a line.
-            Component::Tracer | Component::Gradient | Component::Laplacian => Cow::Borrowed(&[]),
+            Component::Tracer | Component::Gradient | Component::Laplacian | Component::X | Component::Y => {
+                Cow::Borrowed(&[])
+            }
         };
         if field.len() != sampler.points() {
             let name = match component {

@@ -9,6 +9,7 @@ mod history;
 mod images;
 mod line;
 mod loss;
+mod probe;
 mod sampler;
 mod slope;
 
@@ -20,6 +21,7 @@ pub use field::FieldError;
 pub use fit::{Degree, Fit};
 pub use images::Images;
 pub use line::{Extreme, LineMeasure};
+pub use probe::Probe;
 pub use sampler::{Sampler, Stencil};
 
 #[cfg(test)]

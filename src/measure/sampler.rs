@@ -3,6 +3,8 @@
 use glam::DVec2;
 
 use super::{CellList, Degree, Fit, Images, MeasureError};
+use crate::case::Case;
+use crate::cloud::Sizing;
 
 /// The ladder of fits, best first: degree, radius in spacings. At walls and corners the circle is cut, so the cubic
 /// fit gets wider circles before the degree is lowered.
@@ -39,10 +41,24 @@ impl Stencil {
 pub struct Sampler<'a> {
     images: Images<'a>,
     cells: CellList,
+    /// The least where it varies, m.
     spacing: f64,
+    /// Where the spacing varies.
+    sizing: Option<Sizing>,
 }
 
 impl<'a> Sampler<'a> {
+    /// On the points of a case.
+    ///
+    /// # Errors
+    /// As [`Sampler::new`].
+    pub fn of(case: &Case, position: &'a [DVec2]) -> Result<Self, MeasureError> {
+        let sizing = Sizing::of(case);
+        let mut sampler = Self::periodic(position, sizing.least(), case.domain.period())?;
+        sampler.sizing = (!sizing.is_even()).then_some(sizing);
+        Ok(sampler)
+    }
+
     /// `position` in metres; `spacing` is the mean distance of neighbouring points, m.
     ///
     /// # Errors
@@ -61,21 +77,33 @@ impl<'a> Sampler<'a> {
         }
         let widest = LADDER.iter().map(|(_, radius)| radius * spacing).fold(0.0, f64::max);
         let images = Images::new(position, period, widest);
-        Ok(Self { cells: CellList::new(&images.position, 1.6 * spacing)?, images, spacing })
+        Ok(Self { cells: CellList::new(&images.position, 1.6 * spacing)?, images, spacing, sizing: None })
     }
 
     pub fn points(&self) -> usize {
         self.images.points()
     }
 
+    /// The least spacing, m.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
+    /// The spacing around a place, m.
+    fn spacing_at(&self, at: DVec2) -> f64 {
+        self.sizing.as_ref().map_or(self.spacing, |sizing| sizing.at(at))
+    }
+
+    /// The point nearest to a place.
+    pub fn nearest(&self, at: DVec2) -> usize {
+        self.images.point(self.cells.nearest(&self.images.position, at))
+    }
+
     /// The stencil that evaluates a field at a place, m: cubic where the points allow it.
     pub fn stencil(&self, at: DVec2) -> Stencil {
+        let spacing = self.spacing_at(at);
         for (degree, radius) in LADDER {
-            let radius = radius * self.spacing;
+            let radius = radius * spacing;
             let (points, offset) = self.neighbours(at, radius);
             if let Some(fit) = Fit::new(&offset, radius, degree) {
                 let weights = fit.value();
@@ -84,8 +112,7 @@ impl<'a> Sampler<'a> {
                 }
             }
         }
-        let nearest = self.images.point(self.cells.nearest(&self.images.position, at));
-        Stencil { points: vec![nearest], weights: vec![1.0], degree: None }
+        Stencil { points: vec![self.nearest(at)], weights: vec![1.0], degree: None }
     }
 
     /// A field's value at a place; `field` holds one value a point.
@@ -96,12 +123,20 @@ impl<'a> Sampler<'a> {
     /// Points and weights that sum a field to its derivatives along x and y at a place, 1/m: exact for quadratics.
     /// `None` where the points around it don't hold a gradient.
     pub fn gradient(&self, at: DVec2) -> Option<(Vec<usize>, [Vec<f64>; 2])> {
-        [(Degree::Quadratic, 2.3), (Degree::Quadratic, 3.2), (Degree::Linear, 3.2)].into_iter().find_map(
-            |(degree, radius)| {
-                let (points, offset) = self.neighbours(at, radius * self.spacing);
-                Fit::new(&offset, radius * self.spacing, degree).map(|fit| (points, fit.gradient()))
-            },
-        )
+        self.fitted(at, &[(Degree::Quadratic, 2.3), (Degree::Quadratic, 3.2), (Degree::Linear, 3.2)])
+    }
+
+    /// The same on a wall, where all points lie on one side: exact for cubics where the points hold one.
+    pub fn slope(&self, at: DVec2) -> Option<(Vec<usize>, [Vec<f64>; 2])> {
+        self.fitted(at, &LADDER)
+    }
+
+    fn fitted(&self, at: DVec2, ladder: &[(Degree, f64)]) -> Option<(Vec<usize>, [Vec<f64>; 2])> {
+        let spacing = self.spacing_at(at);
+        ladder.iter().find_map(|&(degree, radius)| {
+            let (points, offset) = self.neighbours(at, radius * spacing);
+            Fit::new(&offset, radius * spacing, degree).map(|fit| (points, fit.gradient()))
+        })
     }
 
     fn neighbours(&self, at: DVec2, radius: f64) -> (Vec<usize>, Vec<DVec2>) {

@@ -1,4 +1,4 @@
-//! diagnostics.csv: one row a report, on disk before the next step begins.
+//! diagnostics.csv: one row a report, on disk before the next step begins; a column for each probe behind the others.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Write};
@@ -15,6 +15,8 @@ const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_
 pub struct DiagnosticsWriter {
     path: PathBuf,
     file: File,
+    /// Names of the probes.
+    probes: Vec<String>,
 }
 
 impl DiagnosticsWriter {
@@ -22,11 +24,11 @@ impl DiagnosticsWriter {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn create(path: &Path) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, probes: Vec<String>) -> Result<Self, OutputError> {
         let mut file = File::create(path).map_err(OutputError::io(path))?;
         hold(&file);
-        writeln!(file, "{HEADER}").map_err(OutputError::io(path))?;
-        Ok(Self { path: path.to_owned(), file })
+        writeln!(file, "{}", header(&probes)).map_err(OutputError::io(path))?;
+        Ok(Self { path: path.to_owned(), file, probes })
     }
 
     /// Goes on with the file of a run from its state after `step`: rows behind that one, and one that a kill cut off, are
@@ -34,7 +36,8 @@ impl DiagnosticsWriter {
     ///
     /// # Errors
     /// A file that is not of this kind, or lacks the row of that step; errors of the file system.
-    pub fn resume(path: &Path, step: u64) -> Result<Self, OutputError> {
+    pub fn resume(path: &Path, step: u64, probes: Vec<String>) -> Result<Self, OutputError> {
+        let header = header(&probes);
         let wrong = |line: usize, what: &str| OutputError::Csv { path: path.to_owned(), line, what: what.to_owned() };
         let mut file = BufReader::new(File::open(path).map_err(OutputError::io(path))?);
         let (mut kept, mut lines, mut last) = (Vec::new(), 0, 0);
@@ -45,7 +48,7 @@ impl DiagnosticsWriter {
             let step_of =
                 |line: &[u8]| std::str::from_utf8(line.split(|&byte| byte == b',').next()?).ok()?.parse().ok();
             match line {
-                Some(line) if lines == 0 && line == HEADER.as_bytes() => {}
+                Some(line) if lines == 0 && line == header.as_bytes() => {}
                 Some(line) if lines > 0 => match step_of(line) {
                     Some(row) if row <= step => last = row,
                     Some(_) => kept.truncate(begin),
@@ -65,7 +68,7 @@ impl DiagnosticsWriter {
         write_whole(path, |file| file.write_all(&kept).map_err(OutputError::io(path)))?;
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
         hold(&file);
-        Ok(Self { path: path.to_owned(), file })
+        Ok(Self { path: path.to_owned(), file, probes })
     }
 
     /// Has the rows on the disk itself: they are to be there before a checkpoint that counts on them.
@@ -89,6 +92,7 @@ impl DiagnosticsWriter {
             residual,
             change,
             limit,
+            probes,
         } = row;
         for (field, value) in [
             ("time", time),
@@ -101,13 +105,22 @@ impl DiagnosticsWriter {
         ] {
             finite(&format!("{field} of step {step}"), *value)?;
         }
+        for (name, value) in self.probes.iter().zip(probes) {
+            finite(&format!("{name} of step {step}"), *value)?;
+        }
         // One write a row: a reader never sees half of one.
         let line = format!(
             "{step},{time:?},{dt:?},{kinetic_energy:?},{max_speed:?},{divergence:?},{pressure_iterations},{residual:?},\
-             {change:?},{limit}\n"
+             {change:?},{limit}"
         );
+        let line = probes.iter().fold(line, |line, value| format!("{line},{value:?}")) + "\n";
         self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
     }
+}
+
+/// The columns, those of the probes last.
+fn header(probes: &[String]) -> String {
+    [HEADER].into_iter().chain(probes.iter().map(String::as_str)).collect::<Vec<_>>().join(",")
 }
 
 /// Others are to see that a run goes on here. Not every file system can tell them: then there is no more to do.
@@ -123,10 +136,10 @@ mod tests {
     fn rows_are_on_disk_as_soon_as_they_are_appended() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("diagnostics.csv");
-        let mut writer = DiagnosticsWriter::create(&path).unwrap();
+        let mut writer = DiagnosticsWriter::create(&path, vec![]).unwrap();
         let row = Diagnostics { step: 50, time: 0.1, max_speed: 1.0, pressure_iterations: 12, ..Default::default() };
         writer.append(&row).unwrap();
-        let broken = Diagnostics { change: f64::INFINITY, ..row };
+        let broken = Diagnostics { change: f64::INFINITY, ..row.clone() };
         let error = writer.append(&broken).unwrap_err().to_string();
         assert!(error.starts_with("change of step 50 is inf"), "{error}");
         writer.append(&Diagnostics { step: 100, residual: 1e-7, ..row }).unwrap();
@@ -141,7 +154,7 @@ mod tests {
         let whole = format!("{HEADER}\n5,0.1\n10,0.2\n15,0.3\n");
         let resumed = |text: &str, step: u64| {
             std::fs::write(&path, text).unwrap();
-            let resumed = DiagnosticsWriter::resume(&path, step).map(|_| ()).map_err(|error| error.to_string());
+            let resumed = DiagnosticsWriter::resume(&path, step, vec![]).map(|_| ()).map_err(|error| error.to_string());
             resumed.map(|()| std::fs::read_to_string(&path).unwrap())
         };
         assert_eq!(resumed(&whole, 10), Ok(format!("{HEADER}\n5,0.1\n10,0.2\n")));
@@ -154,6 +167,21 @@ mod tests {
         );
         assert!(resumed("step\n5\n", 5).unwrap_err().contains("line 1: not the header"));
         assert!(resumed(&format!("{HEADER}\n5,0\nx\n"), 5).unwrap_err().contains("line 3: does not begin with"));
+    }
+
+    #[test]
+    fn probes_have_columns_of_their_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnostics.csv");
+        let mut writer = DiagnosticsWriter::create(&path, vec!["drag".to_owned(), "drop".to_owned()]).unwrap();
+        let row = Diagnostics { probes: vec![0.25, -2.0], ..Default::default() };
+        writer.append(&row).unwrap();
+        assert_eq!(
+            std::fs::read_to_string(&path).unwrap(),
+            format!("{HEADER},drag,drop\n0,0.0,0.0,0.0,0.0,0.0,0,0.0,0.0,end,0.25,-2.0\n")
+        );
+        let broken = Diagnostics { probes: vec![0.25, f64::NAN], ..row };
+        assert!(writer.append(&broken).unwrap_err().to_string().starts_with("drop of step 0 is NaN"));
     }
 
     #[test]

@@ -316,13 +316,13 @@ mod tests {
     fn a_folder_that_a_run_is_in_is_left_alone() {
         let root = tempfile::tempdir().unwrap();
         let folder = RunFolder::create(root.path(), false).unwrap();
-        let writer = DiagnosticsWriter::create(&folder.diagnostics()).unwrap();
+        let writer = DiagnosticsWriter::create(&folder.diagnostics(), vec![]).unwrap();
         assert!(matches!(RunFolder::resume(root.path()), Err(OutputError::Busy(_))));
         assert!(matches!(RunFolder::create(root.path(), true), Err(OutputError::Busy(_))));
         assert!(folder.diagnostics().exists());
         drop(writer);
         RunFolder::resume(root.path()).unwrap();
-        let writer = DiagnosticsWriter::resume(&folder.diagnostics(), 0).unwrap();
+        let writer = DiagnosticsWriter::resume(&folder.diagnostics(), 0, vec![]).unwrap();
         assert!(matches!(RunFolder::resume(root.path()), Err(OutputError::Busy(_))));
         drop(writer);
         RunFolder::create(root.path(), true).unwrap();

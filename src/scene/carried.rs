@@ -2,7 +2,7 @@
 
 use super::Scene;
 use crate::case::{Case, Wall};
-use crate::cloud::voronoi::Cells;
+use crate::cloud::voronoi::{Boundary, Cells};
 use crate::engine::Data;
 use crate::step::{Buffer, Carried};
 
@@ -54,19 +54,16 @@ fn held(scene: &Scene, point: usize) -> Option<f64> {
     (!given.is_empty()).then(|| given.iter().sum::<f64>() / given.len() as f64)
 }
 
-/// What flows in through the pieces of wall of every cell, K/s: `q A_i / V_i`, the piece of a side as long as the spacing, half of
-/// it at a corner.
+/// What flows in through the pieces of wall of every cell, K/s: `q A_i / V_i`; nothing through obstacles.
 fn supply(scene: &Scene, volume: &[f64]) -> Vec<f64> {
     let cloud = &scene.cloud;
     let mut supply = vec![0.0; cloud.len()];
-    for (point, sides) in cloud.sides.iter().enumerate() {
-        let at = cloud.interior + point;
-        if held(scene, point).is_some() {
-            continue;
-        }
-        for side in sides {
+    for piece in scene.cells.iter().flat_map(|cells| &cells.walls) {
+        let Boundary::Side(side) = piece.of else { continue };
+        let held = piece.point >= cloud.interior && held(scene, piece.point - cloud.interior).is_some();
+        if !held {
             let flux = side.wall(&scene.case.boundaries).heat_flux.unwrap_or(0.0);
-            supply[at] += flux * cloud.spacing / sides.len() as f64 / volume[at];
+            supply[piece.point] += flux * piece.area.length() / volume[piece.point];
         }
     }
     supply

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::Scene;
-use crate::cloud::voronoi::Cells;
-use crate::cloud::{OpenPoint, Side};
+use crate::cloud::OpenPoint;
+use crate::cloud::voronoi::{Boundary, Cells};
 use crate::cpu::blocks;
 use crate::engine::Data;
 use crate::step::Buffer;
@@ -14,9 +14,10 @@ use crate::step::Buffer;
 pub(super) fn wall_flux(scene: &Scene, cells: &Cells) -> Vec<f64> {
     let mut flux = vec![0.0; scene.cloud.len()];
     for piece in &cells.walls {
-        let of = [Side::Left, Side::Right, Side::Bottom, Side::Top];
-        let side = of.into_iter().find(|side| side.normal().dot(piece.area) > 0.5 * piece.area.length());
-        let velocity = side.and_then(|side| side.velocity(&scene.case.boundaries, piece.middle, scene.cloud.size));
+        let velocity = match piece.of {
+            Boundary::Side(side) => side.velocity(&scene.case.boundaries, piece.middle, scene.cloud.size),
+            Boundary::Obstacle(_) => None,
+        };
         if !scene.is_outlet(piece.point) {
             flux[piece.point] += velocity.unwrap_or(DVec2::ZERO).dot(piece.area);
         }

@@ -17,6 +17,7 @@ use crate::case::Splitting;
 use crate::case::{LONGEST_FORWARD, MOST_STEPS};
 use crate::engine::{Clock, Data, Engine, EngineError};
 use crate::known::Known;
+use crate::measure::{MeasureError, Probe};
 use crate::motion;
 use crate::scene::Scene;
 use crate::snapshot::{Derivatives, Snapshot};
@@ -27,7 +28,7 @@ use row::Row;
 pub use state::{Progress, State};
 
 /// One row of `diagnostics.csv`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Diagnostics {
     pub step: u64,
     /// s
@@ -48,6 +49,9 @@ pub struct Diagnostics {
     pub change: f64,
     /// What kept the step from being longer.
     pub limit: Limit,
+    /// Forces, differences and fluxes, in the order of [`Probe::of_case`]; columns of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<f64>,
 }
 
 /// Told of a run as it goes: draws the bar, writes the rows, asks it to stop.
@@ -113,6 +117,8 @@ pub struct Outcome {
 pub enum SimulationError {
     #[error(transparent)]
     Engine(#[from] EngineError),
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
     #[error(
         "time.step = {step}: at {speed} m/s points move {courant:.2} spacings a step; \
          allowed with the forward remap: at most 1"
@@ -175,12 +181,15 @@ struct Run<'a> {
     most_energy: f64,
     warnings: Vec<String>,
     moving: moving::Watch,
+    /// Forces, differences and fluxes for the diagnostics.
+    probes: Vec<Probe>,
 }
 
 impl<'a> Run<'a> {
     pub(super) fn new(scene: &'a Scene, engine: &'a mut dyn Engine, observer: &'a mut dyn Observer) -> Self {
         let (limit, warnings, moving) = (f64::INFINITY, Vec::new(), moving::Watch::new(scene));
-        Self { scene, engine, observer, limit, wall_speed: 0.0, most_energy: f64::MAX, warnings, moving }
+        let (wall_speed, most_energy, probes) = (0.0, f64::MAX, Vec::new());
+        Self { scene, engine, observer, limit, wall_speed, most_energy, warnings, moving, probes }
     }
 
     fn run(mut self, resumed: Option<State>) -> Result<Outcome, SimulationError> {
@@ -206,9 +215,9 @@ impl<'a> Run<'a> {
         let started = Instant::now();
         let time = &self.scene.case.time;
         let begun = self.scene.initial_velocity();
-        let fastest = |velocity: &[DVec2]| velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
         self.most_energy = self.scene.energy_scale().map_or(f64::MAX, |scale| self.scene.case.guard.energy * scale);
-        self.wall_speed = fastest(&begun[self.scene.sizes.interior..]);
+        self.wall_speed = self.fastest(&begun, self.scene.sizes.interior);
+        self.probes = Probe::of_case(&self.scene.case, &self.scene.cloud.position)?;
         let mut good = match resumed {
             Some(state) => {
                 state.write(self.engine)?;
@@ -216,7 +225,7 @@ impl<'a> Run<'a> {
                 self.warnings.clone_from(&state.progress.warnings);
                 state
             }
-            None => self.begin(fastest(&begun))?,
+            None => self.begin(self.fastest(&begun, 0))?,
         };
         let mut progress = good.progress.clone();
         let mut taken = 0;
@@ -323,6 +332,14 @@ impl<'a> Run<'a> {
         laplacian.truncate(points);
         let derivatives = Some(Derivatives { value, gradient, laplacian });
         Ok(Snapshot { position: self.scene.cloud.position.clone(), derivatives, ..Snapshot::default() })
+    }
+
+    /// The largest speed among the points from `first` on, m/s; where the spacing varies, of all the same motion in spacings, as
+    /// if that were the largest.
+    fn fastest(&self, velocity: &[DVec2], first: usize) -> f64 {
+        let cloud = &self.scene.cloud;
+        let weighed = |point: usize| velocity[point].length() * (cloud.spacing / cloud.spacing_at(point));
+        (first..velocity.len()).map(weighed).fold(0.0, f64::max)
     }
 
     /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`; halved so many

@@ -94,7 +94,7 @@ impl Run<'_> {
             Err(error) => return Ok(Row::Trouble(Trouble::Engine(error))),
         };
         let solve = self.engine.solve_info();
-        let row = Diagnostics {
+        let mut row = Diagnostics {
             step: progress.step,
             time: progress.time,
             dt,
@@ -105,12 +105,17 @@ impl Run<'_> {
             residual: solve.last_residual * dt * clock.kick / self.scene.constants.density,
             change: measured.change,
             limit,
+            probes: Vec::new(),
         };
         if let Some(trouble) = self.watch(&row)? {
             return Ok(Row::Trouble(trouble));
         }
         if let Some(reason) = self.look_at_points(progress.step, progress.time)? {
             return Ok(Row::Trouble(Trouble::Diverged(reason)));
+        }
+        if !self.probes.is_empty() {
+            let snapshot = self.snapshot(progress.time)?;
+            row.probes = self.probes.iter().map(|probe| probe.value(&snapshot)).collect();
         }
         if interrupted {
             return Ok(Row::Interrupted(row));
@@ -119,6 +124,11 @@ impl Run<'_> {
         let steady = self.scene.case.time.steady.is_some_and(|least| row.change < least);
         progress.steady_rows = if steady { progress.steady_rows + 1 } else { 0 };
         progress.warnings.clone_from(&self.warnings);
+        if self.scene.cloud.local.is_some() {
+            // Where the spacing varies the step goes by the motion in spacings.
+            let snapshot = self.snapshot(progress.time)?;
+            progress.speed = self.wall_speed.max(self.fastest(&snapshot.velocity, 0));
+        }
         let state = State::read(self.scene, self.engine, progress)?;
         Ok(match state.non_finite(self.scene) {
             Some(field) => Row::Trouble(self.lost(field)),

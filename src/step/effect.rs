@@ -47,7 +47,11 @@ impl Operation {
                 true => Effect::Advection,
                 false => Effect::Step,
             },
-            AssembleLaplacian | AssembleGradient | AssembleIntegralLaplacian | AssembleIntegralGradient => Effect::Step,
+            AssembleLaplacian
+            | AssembleGradient
+            | AssembleIntegralLaplacian
+            | AssembleIntegralGradient
+            | FindLocalNeighbours => Effect::Step,
             FitVelocity(_) | RemapDeparture | MovePoints | RemapForward | FindDepartures | CarryVelocity => {
                 Effect::Advection
             }

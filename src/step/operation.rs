@@ -50,6 +50,8 @@ pub enum Operation {
     BuildCells(Points),
     /// Lists the points within the radius of each point.
     FindNeighbours(Points),
+    /// Lists the points within each point's own radius, where the spacing varies.
+    FindLocalNeighbours,
     /// Forms and factorises the normal matrix of each point's least squares.
     Factorise(Points),
     /// Takes the points whose factorisation failed down the ladder: wider radius, lower order, nearest value.
@@ -166,6 +168,7 @@ impl Operation {
         match self {
             Operation::BuildCells(_) => "build_cells",
             Operation::FindNeighbours(_) => "find_neighbours",
+            Operation::FindLocalNeighbours => "find_local_neighbours",
             Operation::Factorise(_) => "factorise",
             Operation::WidenSupport(_) => "widen_support",
             Operation::AssembleLaplacian => "assemble_laplacian",
@@ -245,6 +248,9 @@ impl Operation {
         match self {
             Operation::BuildCells(points) => vec![Position(points)],
             Operation::FindNeighbours(points) => vec![Position(points), CellStart(points), CellPoints(points)],
+            Operation::FindLocalNeighbours => {
+                vec![Position(standing), CellStart(standing), CellPoints(standing), Support(standing)]
+            }
             Operation::Factorise(points) => {
                 vec![Position(points), Neighbours(points), NeighbourCount(points), Support(points)]
             }
@@ -327,6 +333,7 @@ impl Operation {
         match self {
             Operation::BuildCells(points) => vec![CellStart(points), CellPoints(points)],
             Operation::FindNeighbours(points) => vec![Neighbours(points), NeighbourCount(points), Support(points)],
+            Operation::FindLocalNeighbours => vec![Neighbours(Points::Standing), NeighbourCount(Points::Standing)],
             Operation::Factorise(points) => vec![Factor(points), Rung(points)],
             Operation::WidenSupport(points) => {
                 vec![Support(points), Neighbours(points), NeighbourCount(points), Factor(points), Rung(points)]

@@ -63,6 +63,8 @@ fn solve_by(solver: Solver) -> Operation {
 /// The rows that a plan needs, and the form that they are of.
 struct Rows {
     operators: Operators,
+    /// Every point has its own radius.
+    graded: bool,
     laplacian: bool,
     gradient: bool,
 }
@@ -73,7 +75,8 @@ impl Rows {
         use Operation::*;
         let points = Points::Standing;
         let interpolation = self.operators == Operators::Interpolation;
-        let mut setup = vec![BuildCells(points), FindNeighbours(points)];
+        let find = if self.graded { FindLocalNeighbours } else { FindNeighbours(points) };
+        let mut setup = vec![BuildCells(points), find];
         if interpolation || evaluates_fits {
             setup.extend([Factorise(points), WidenSupport(points)]);
         }
@@ -101,7 +104,7 @@ impl Plan {
     fn of_derivatives(case: &Case) -> Self {
         let interpolation = case.method.operators == Operators::Interpolation;
         let laplacian = case.method.second_derivatives();
-        let setup = Rows { operators: case.method.operators, laplacian, gradient: true }.setup(false);
+        let setup = Rows { operators: case.method.operators, graded: false, laplacian, gradient: true }.setup(false);
         let mut kick = vec![Operation::Gradient];
         if laplacian {
             kick.push(Operation::Laplacian);
@@ -129,7 +132,8 @@ impl Plan {
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let mut setup = Vec::new();
         if pressure.form() == PressureForm::Collocated {
-            setup = Rows { operators: Operators::Interpolation, laplacian: true, gradient: true }.setup(false);
+            setup = Rows { operators: Operators::Interpolation, graded: false, laplacian: true, gradient: true }
+                .setup(false);
             setup.push(Operation::AssembleCollocated);
         }
         let kick = vec![solve_by(pressure.solver())];
@@ -240,6 +244,7 @@ impl Plan {
             effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);
         let rows = Rows {
             operators: case.method.operators,
+            graded: !case.cloud.refine.is_empty(),
             laplacian: effects.viscosity.is_some() || collocated,
             gradient: effects.pressure.as_ref().is_some_and(|pressure| pressure.gradient() == case::Gradient::Fit),
         };

@@ -2,6 +2,7 @@
 
 mod mistakes;
 mod moving;
+mod obstacles;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -189,7 +190,7 @@ fn every_shipped_case_loads_and_finds_its_profiles() {
     for path in cases {
         let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let profiles: Vec<_> = case.expect.values().filter_map(|expectation| expectation.profile.as_ref()).collect();
-        // Problems without time are held to known fields, exact flows to the whole flow.
+        // Problems without time are held to known fields, exact flows to the whole flow, obstacles to their forces.
         let published = case.problem() == Problem::Flow && case.exact.is_none();
         // Of points that move, those have one that an experiment shows.
         if !case.moves() {

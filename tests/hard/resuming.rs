@@ -27,7 +27,7 @@ pub struct Keeper {
 
 impl Observer for Keeper {
     fn report(&mut self, row: &Diagnostics) {
-        self.rows.push(*row);
+        self.rows.push(row.clone());
     }
 
     fn stop_requested(&self) -> bool {

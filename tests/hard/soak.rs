@@ -20,7 +20,7 @@ struct Watch(Vec<(Diagnostics, usize)>);
 
 impl Observer for Watch {
     fn report(&mut self, row: &Diagnostics) {
-        self.0.push((*row, memory()));
+        self.0.push((row.clone(), memory()));
     }
 
     fn stop_requested(&self) -> bool {

@@ -11,7 +11,7 @@ use crate::random::Random;
 
 fn built(cloud: &Cloud) -> (Cells, Fluxes) {
     let cells = Cells::build(cloud);
-    let fluxes = Fluxes::build(cloud, &cells, 2.8 * cloud.spacing);
+    let fluxes = Fluxes::build(cloud, &cells, 2.8);
     (cells, fluxes)
 }
 

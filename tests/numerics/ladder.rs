@@ -34,7 +34,7 @@ fn groups() -> (Cloud, [std::ops::Range<usize>; 4]) {
     });
     let position = parts.concat();
     let (interior, size) = (position.len(), DVec2::splat(40.0));
-    let (normal, sides, filled) = (vec![], vec![], None);
+    let (normal, sides, outlines, filled, local) = (vec![], vec![], vec![], None, None);
     let cloud = Cloud {
         position,
         interior,
@@ -42,7 +42,9 @@ fn groups() -> (Cloud, [std::ops::Range<usize>; 4]) {
         filled,
         normal,
         sides,
+        outlines,
         spacing: 1.0,
+        local,
         size,
         period: DVec2::ZERO,
     };

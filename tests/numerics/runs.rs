@@ -22,7 +22,7 @@ struct Watch {
 
 impl Observer for Watch {
     fn report(&mut self, row: &Diagnostics) {
-        self.rows.push(*row);
+        self.rows.push(row.clone());
     }
 
     fn stop_requested(&self) -> bool {

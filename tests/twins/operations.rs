@@ -56,6 +56,7 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         Operation::AssembleMirrored | Operation::AssembleDensity => vec![Buffer::MatrixRow],
         Operation::FindNeighbours(points) => vec![Buffer::Neighbours(points), Buffer::NeighbourCount(points)],
         Operation::BuildCells(_)
+        | Operation::FindLocalNeighbours
         | Operation::Factorise(_)
         | Operation::AssembleLaplacian
         | Operation::AssembleGradient

@@ -20,7 +20,7 @@ struct Rows(Vec<Diagnostics>);
 
 impl Observer for Rows {
     fn report(&mut self, row: &Diagnostics) {
-        self.0.push(*row);
+        self.0.push(row.clone());
     }
 
     fn stop_requested(&self) -> bool {

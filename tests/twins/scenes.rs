@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
-use stillpoint::case::{Axes, Case};
+use stillpoint::case::{Axes, Boundaries, Case, Circle, Obstacle, Refine, SideKind, SideProfile, Wall};
 use stillpoint::cloud::Cloud;
 use stillpoint::scene::Scene;
 
@@ -143,6 +143,9 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
         scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
     }
     scenes.push(("a channel that repeats", Arc::new(channel())));
+    scenes.push(("obstacles in a lattice", Arc::new(with_obstacles("regular"))));
+    scenes.push(("obstacles in relaxed points", Arc::new(with_obstacles("relaxed"))));
+    scenes.push(("graded points round an obstacle", Arc::new(graded())));
     let mut still = cavity_of(ACROSS, &["cloud.arrangement=jittered", TIGHT]);
     still.effects.advection = None;
     scenes.push(("no advection", Arc::new(Scene::build(&still).expect("a scene"))));
@@ -167,6 +170,34 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     let many = cavity_of(144, &["cloud.arrangement=jittered", TIGHT]);
     scenes.push(("many points", Arc::new(Scene::build(&many).expect("a scene"))));
     scenes
+}
+
+/// A cavity with a circle and a wedge in it, its faces fitted, on points of this arrangement.
+fn with_obstacles(arrangement: &str) -> Scene {
+    let arrangement = format!("cloud.arrangement={arrangement}");
+    let mut case = cavity_of(ACROSS, &[TIGHT, FIT, &arrangement]);
+    case.obstacles = vec![
+        obstacle(Some(Circle { centre: [0.35, 0.6], radius: 0.13 }), None),
+        obstacle(None, Some(vec![[0.55, 0.25], [0.85, 0.35], [0.6, 0.5]])),
+    ];
+    Scene::build(&case).expect("a scene")
+}
+
+fn obstacle(circle: Option<Circle>, polygon: Option<Vec<[f64; 2]>>) -> Obstacle {
+    let name = if circle.is_some() { "ball" } else { "wedge" };
+    Obstacle { name: name.to_owned(), circle, polygon }
+}
+
+/// A channel round a circle, which fluid flows through, its points closer around that; plain faces.
+fn graded() -> Scene {
+    let mut case = cavity_of(8, &[TIGHT, "cloud.arrangement=relaxed"]);
+    case.boundaries = Boundaries::default();
+    case.boundaries.left =
+        Wall { kind: SideKind::Inlet, profile: SideProfile::Parabola, velocity: [1.0, 0.0], ..Wall::default() };
+    case.boundaries.right.kind = SideKind::Outlet;
+    case.obstacles = vec![obstacle(Some(Circle { centre: [0.4, 0.5], radius: 0.13 }), None)];
+    case.cloud.refine = vec![Refine { near: Some("ball".to_owned()), corners: None, spacing: 0.04, growth: 0.15 }];
+    Scene::build(&case).expect("a scene")
 }
 
 /// The cavity on 17 x 17 points with `changes`.
@@ -267,7 +298,9 @@ fn ladder(order: usize) -> Scene {
         interior,
         normal: vec![],
         sides: vec![],
+        outlines: vec![],
         spacing: 1.0,
+        local: None,
         size,
         period: DVec2::ZERO,
     };

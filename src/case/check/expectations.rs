@@ -1,7 +1,7 @@
 //! Checks of the published values that a run is held to.
 
 use super::super::fault::{self, Fault};
-use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, Shape, SideKind, Solution};
+use super::super::{Case, Component, Expectation, Line, Measure, Problem, Profile, SIDES, Shape, SideKind, Solution};
 use super::is_line;
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
@@ -20,7 +20,10 @@ fn check_one(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> Strin
         return check_words(expectation, key);
     }
     check_field(case, expectation, key)?;
-    check_line(case, expectation, key)?;
+    match expectation.measure {
+        Measure::Force | Measure::Difference | Measure::Flux => check_probe(case, expectation, key)?,
+        _ => check_line(case, expectation, key)?,
+    }
     if expectation.component == Some(Component::P) && case.effects.pressure.is_none() {
         return Err(Fault::reason(&key("component"), "there is no pressure: the table effects.pressure is absent"));
     }
@@ -78,8 +81,13 @@ fn known(case: &Case, expectation: &Expectation) -> &'static [Component] {
 
 /// An error is taken over all points and against an exact solution, everything else along a line.
 fn check_line(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
-    let Expectation { line, measure, .. } = expectation;
+    let Expectation { line, measure, on, between, .. } = expectation;
     let component = &expectation.component.ok_or_else(|| Fault::missing(&key("component")))?;
+    for (name, given) in [("on", on.is_some()), ("between", between.is_some())] {
+        if given {
+            return Err(Fault::reason(&key(name), "belongs to the measures force, difference and flux; leave it out"));
+        }
+    }
     let problem = case.problem();
     if *measure == Measure::Error {
         if case.exact.is_none() && problem == Problem::Flow {
@@ -206,14 +214,52 @@ fn check_after(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) -> 
     if within { Ok(()) } else { Err(Fault::range(&key("after"))) }
 }
 
+/// Forces, differences and fluxes: where they are measured, and of what.
+fn check_probe(case: &Case, expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let Expectation { measure, line, on, between, .. } = expectation;
+    let component = &expectation.component.ok_or_else(|| Fault::missing(&key("component")))?;
+    if case.problem() != Problem::Flow && *measure != Measure::Difference {
+        return Err(Fault::reason(&key("measure"), "belongs to a flow"));
+    }
+    if line.is_some() {
+        return Err(Fault::reason(&key("line"), "belongs to measures along a line; leave it out"));
+    }
+    let (components, word): (&[Component], &str) = match measure {
+        Measure::Force => (&[Component::X, Component::Y], "\"x\" or \"y\" with measure = \"force\""),
+        Measure::Flux => (&[Component::Velocity], "\"velocity\" with measure = \"flux\""),
+        _ => (&[Component::U, Component::V, Component::P], "\"u\", \"v\" or \"p\" with measure = \"difference\""),
+    };
+    if !components.contains(component) {
+        return Err(Fault::reason(&key("component"), format!("must be {word}")));
+    }
+    if *measure == Measure::Difference {
+        if on.is_some() {
+            return Err(Fault::reason(&key("on"), "belongs to the measures force and flux; leave it out"));
+        }
+        let places = between.ok_or_else(|| Fault::missing(&key("between")))?;
+        let inside =
+            |[x, y]: [f64; 2]| (0.0..=case.domain.width).contains(&x) && (0.0..=case.domain.height).contains(&y);
+        return if places.into_iter().all(inside) { Ok(()) } else { Err(Fault::range(&key("between"))) };
+    }
+    if between.is_some() {
+        return Err(Fault::reason(&key("between"), "belongs to the measure difference; leave it out"));
+    }
+    let on = on.as_ref().ok_or_else(|| Fault::missing(&key("on")))?;
+    let known = case.obstacles.iter().any(|obstacle| obstacle.name == *on)
+        || (*measure == Measure::Flux && SIDES.contains(&on.as_str()));
+    if known { Ok(()) } else { Err(Fault::range(&key("on"))) }
+}
+
 /// An extreme has a value and no profile, a profile the reverse, an error neither.
 fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
     let Expectation { measure, value, profile, column, .. } = expectation;
     let stray = |name: &str, reason: &str| Err(Fault::reason(&key(name), reason));
     if *measure != Measure::Profile {
         let reason = match measure {
-            Measure::Error | Measure::Slope | Measure::Loss => "belongs to the measure profile, which this is not",
-            _ => "belongs to the measure profile, and measure is \"minimum\" or \"maximum\"",
+            Measure::Minimum | Measure::Maximum => {
+                "belongs to the measure profile, and measure is \"minimum\" or \"maximum\""
+            }
+            _ => "belongs to the measure profile, which this is not",
         };
         if profile.is_some() || column.is_some() {
             return stray(if profile.is_some() { "profile" } else { "column" }, reason);
@@ -221,11 +267,12 @@ fn check_measure(expectation: &Expectation, key: &dyn Fn(&str) -> String) -> Res
     }
     match (measure, value, profile) {
         (Measure::Error | Measure::Profile | Measure::Loss, Some(_), _) => {
-            stray("value", "belongs to the measures minimum, maximum and slope")
+            stray("value", "belongs to the measures minimum, maximum and slope, and to force, difference and flux")
         }
         (Measure::Profile, None, None) => Err(Fault::missing(&key("profile"))),
-        (Measure::Minimum | Measure::Maximum | Measure::Slope, None, _) => Err(Fault::missing(&key("value"))),
-        (Measure::Minimum | Measure::Maximum | Measure::Slope, Some(0.0), _) => Err(Fault::range(&key("value"))),
+        (Measure::Error | Measure::Profile | Measure::Loss, ..) => Ok(()),
+        (_, None, _) => Err(Fault::missing(&key("value"))),
+        (_, Some(0.0), _) => Err(Fault::range(&key("value"))),
         _ => Ok(()),
     }
 }

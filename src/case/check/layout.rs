@@ -29,7 +29,10 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(domain.height > 0.0, "domain.height")?;
     require(cloud.spacing > 0.0, "cloud.spacing")?;
     check_size(case)?;
-    check_whole(domain, cloud.spacing)?;
+    // Relaxed points divide each side into pieces of their own.
+    if cloud.arrangement != Arrangement::Relaxed {
+        check_whole(domain, cloud.spacing)?;
+    }
     check_arrangement(cloud)?;
     require(case.fluid.density > 0.0, "fluid.density")?;
     check_walls(case)?;
@@ -108,10 +111,10 @@ fn check_arrangement(cloud: &Cloud) -> Result<(), Fault> {
         }
         false => Ok(()),
     };
-    use Arrangement::{Jittered, Random};
+    use Arrangement::{Jittered, Random, Relaxed};
     belongs(cloud.jitter.is_some(), &[Jittered], "cloud.jitter", "jittered")?;
     belongs(cloud.minimum_distance.is_some(), &[Random], "cloud.minimum_distance", "random")?;
-    belongs(cloud.seed.is_some(), &[Jittered, Random], "cloud.seed", "jittered or random")?;
+    belongs(cloud.seed.is_some(), &[Jittered, Random, Relaxed], "cloud.seed", "jittered, random or relaxed")?;
     require((0.0..0.5).contains(&cloud.jitter()), "cloud.jitter")?;
     let distance = cloud.minimum_distance();
     require((SMALLEST_DISTANCE..=0.75).contains(&distance), "cloud.minimum_distance")
@@ -123,6 +126,7 @@ impl Arrangement {
             Arrangement::Regular => "regular",
             Arrangement::Jittered => "jittered",
             Arrangement::Random => "random",
+            Arrangement::Relaxed => "relaxed",
         }
     }
 }

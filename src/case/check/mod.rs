@@ -6,6 +6,7 @@ mod exact;
 mod expectations;
 mod layout;
 mod moving;
+mod obstacles;
 mod sides;
 
 use super::fault::Fault;
@@ -26,6 +27,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     require(is_line(&case.title), "title")?;
     layout::check(case)?;
     moving::check(case)?;
+    obstacles::check(case)?;
     effects::check(case)?;
     sides::check(case)?;
     carried::check(case)?;

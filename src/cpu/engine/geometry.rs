@@ -42,6 +42,23 @@ impl<T: Real> CpuEngine<T> {
                     support.fill(T::from_f64(constants.radius));
                 });
             }
+            Operation::FindLocalNeighbours => {
+                let points = Points::Standing;
+                let mut found = self.fields.take_index(Buffer::Neighbours(points))?;
+                let mut count = self.fields.take_index(Buffer::NeighbourCount(points))?;
+                let most = with_space!(self.domain, space => neighbours::find_local_neighbours(
+                    self.search(points, space)?,
+                    self.standing(Buffer::Support)?,
+                    sizes.capacity,
+                    &mut found,
+                    &mut count,
+                ));
+                self.fields.put_index(Buffer::Neighbours(points), found);
+                self.fields.put_index(Buffer::NeighbourCount(points), count);
+                if most > sizes.capacity {
+                    return Err(EngineError::NeighbourOverflow { found: most as u32, capacity: sizes.capacity });
+                }
+            }
             Operation::Factorise(points) => {
                 let mut factor = self.fields.take(Buffer::Factor(points))?;
                 let mut rung = self.fields.take_index(Buffer::Rung(points))?;

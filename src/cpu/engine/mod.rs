@@ -101,6 +101,7 @@ impl<T: Real> Engine for CpuEngine<T> {
         let done = match operation {
             Operation::BuildCells(_)
             | Operation::FindNeighbours(_)
+            | Operation::FindLocalNeighbours
             | Operation::Factorise(_)
             | Operation::WidenSupport(_)
             | Operation::AssembleLaplacian

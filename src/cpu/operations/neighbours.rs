@@ -81,6 +81,27 @@ pub fn find_neighbours<T: Real, S: Space<T>>(
     neighbours: &mut [u32],
     count: &mut [u32],
 ) -> usize {
+    list(search, &|_| radius, capacity, neighbours, count)
+}
+
+/// The same where every point has its own radius.
+pub fn find_local_neighbours<T: Real, S: Space<T>>(
+    search: Search<T, S>,
+    support: &[T],
+    capacity: usize,
+    neighbours: &mut [u32],
+    count: &mut [u32],
+) -> usize {
+    list(search, &|i| support[i], capacity, neighbours, count)
+}
+
+fn list<T: Real, S: Space<T>>(
+    search: Search<T, S>,
+    radius: &(impl Fn(usize) -> T + Sync),
+    capacity: usize,
+    neighbours: &mut [u32],
+    count: &mut [u32],
+) -> usize {
     let points = search.points;
     blocks::for_each_2((neighbours, capacity), (&mut *count, 1), &|block, neighbours, count| {
         for lane in 0..BLOCK {
@@ -88,7 +109,7 @@ pub fn find_neighbours<T: Real, S: Space<T>>(
             let own = i.min(points - 1);
             let mut met = 0;
             if i < points {
-                search.within(i, radius, |j| {
+                search.within(i, radius(i), |j| {
                     if met < capacity {
                         neighbours[met * BLOCK + lane] = j;
                     }

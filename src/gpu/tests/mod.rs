@@ -127,6 +127,12 @@ fn moving_scenes() -> [Scene; 2] {
     ]
 }
 
+/// Points that lie closer under the lid.
+fn graded_scene() -> Scene {
+    let refined = "[[cloud.refine]]\nnear = \"top\"\nspacing = 0.03125\n";
+    scene_of(&(CAVITY.replace("\"jittered\"", "\"relaxed\"") + refined), &[])
+}
+
 /// The adapter that the tests run on; `None` where those that need one are skipped.
 fn candidate() -> Option<Candidate> {
     (!needed::skipped(&[include_str!("runs.rs"), include_str!("trouble.rs")]))

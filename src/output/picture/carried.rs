@@ -20,11 +20,14 @@ pub fn draw(
 ) -> Result<Canvas, MeasureError> {
     let domain = DVec2::new(case.domain.width, case.domain.height);
     let (columns, rows) = map::size(&case.domain);
-    let (spacing, pixel) = (case.cloud.spacing, domain.x / columns as f64);
-    let surface = Surface::new(&snapshot.position, spacing, case.domain.period(), pixel, [values])?;
+    let surface = Surface::of(case, &snapshot.position, domain.x / columns as f64, [values])?;
     let raster = surface.raster(domain, columns, rows);
     let scale = ColourScale::signed(values);
-    let colour = |column: usize, row: usize| scale.colour(raster.value[row * columns + column][0]);
+    let covered = map::covered(case);
+    let colour = |column: usize, row: usize| match covered(column, row) {
+        true => map::BODY,
+        false => scale.colour(raster.value[row * columns + column][0]),
+    };
     let bar = if name == "temperature" { ("T", "K") } else { (name, "1") };
     Ok(map::draw(text, &case.domain, title, &scale, bar, colour, |_, _| {}))
 }

@@ -52,7 +52,7 @@ pub fn draw(
     profiles: &BTreeMap<String, Profile>,
     title: &str,
 ) -> Result<Canvas, MeasureError> {
-    let sampler = Sampler::periodic(&snapshot.position, case.cloud.spacing, case.domain.period())?;
+    let sampler = Sampler::of(case, &snapshot.position)?;
     let panel = WIDTH / COLUMNS as f64;
     let panels = wanted(case)
         .into_iter()
@@ -147,6 +147,8 @@ fn prepare(
         Component::Tracer => ("c", "tracer", "1"),
         Component::Gradient => ("∇φ", "gradient", "1/m"),
         Component::Laplacian => ("∆φ", "Laplacian", "1/m²"),
+        // No line has them.
+        Component::X | Component::Y => ("F", "force", "N/m"),
     };
     let (along, heading) = match wanted.1 {
         Line::X(x) => ("y", format!("{what} along x = {} m", short(x, 4))),

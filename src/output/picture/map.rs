@@ -8,7 +8,8 @@ use super::colour::Rgb;
 use super::frame::{Axis, BELOW, Frame, draw_title, title_height};
 use super::scale::ColourScale;
 use super::text::Text;
-use crate::case::Domain;
+use crate::case::{Case, Domain};
+use crate::cloud::Shape;
 
 /// Width of a figure, pixels; a tall domain gives a narrower one.
 const WIDTH: f64 = 1200.0;
@@ -27,6 +28,20 @@ pub fn size(domain: &Domain) -> (usize, usize) {
     let width = (WIDTH - BESIDE).min(TALLEST_MAP * aspect);
     let whole = |x: f64| (x.round() as usize).max(24);
     (whole(width), whole(width / aspect))
+}
+
+/// What obstacles are painted with.
+pub const BODY: Rgb = Rgb([120, 120, 125]);
+
+/// True of the pixels whose middle lies in an obstacle.
+pub fn covered(case: &Case) -> impl Fn(usize, usize) -> bool + Sync {
+    let (columns, rows) = size(&case.domain);
+    let pixel = DVec2::new(case.domain.width / columns as f64, case.domain.height / rows as f64);
+    let shapes: Vec<Shape> = case.obstacles.iter().map(Shape::of).collect();
+    move |column, row| {
+        let place = pixel * (DVec2::new(column as f64, (rows - 1 - row) as f64) + 0.5);
+        shapes.iter().any(|shape| shape.distance(place) < 0.0)
+    }
 }
 
 /// Lays out a figure and draws it; `colour` gives the map's pixels from the top left one.

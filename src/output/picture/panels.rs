@@ -97,6 +97,7 @@ fn heading(panel: &Panel) -> String {
         Arrangement::Regular => "regular",
         Arrangement::Jittered => "jittered",
         Arrangement::Random => "random",
+        Arrangement::Relaxed => "relaxed",
     };
     format!("{form}, {points} points")
 }

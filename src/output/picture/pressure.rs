@@ -14,10 +14,13 @@ use crate::snapshot::Snapshot;
 pub fn draw(text: &Text, case: &Case, snapshot: &Snapshot, title: &str) -> Result<Canvas, MeasureError> {
     let domain = DVec2::new(case.domain.width, case.domain.height);
     let (columns, rows) = map::size(&case.domain);
-    let (spacing, pixel) = (case.cloud.spacing, domain.x / columns as f64);
-    let surface = Surface::new(&snapshot.position, spacing, case.domain.period(), pixel, [&snapshot.pressure])?;
+    let surface = Surface::of(case, &snapshot.position, domain.x / columns as f64, [&snapshot.pressure])?;
     let raster = surface.raster(domain, columns, rows);
     let scale = ColourScale::signed(&snapshot.pressure);
-    let colour = |column: usize, row: usize| scale.colour(raster.value[row * columns + column][0]);
+    let covered = map::covered(case);
+    let colour = |column: usize, row: usize| match covered(column, row) {
+        true => map::BODY,
+        false => scale.colour(raster.value[row * columns + column][0]),
+    };
     Ok(map::draw(text, &case.domain, title, &scale, ("p", "Pa"), colour, |_, _| {}))
 }

@@ -22,12 +22,21 @@ pub fn draw(text: &Text, case: &Case, snapshot: &Snapshot, title: &str) -> Resul
     let (columns, rows) = map::size(&case.domain);
     let [u, v]: [Vec<f64>; 2] =
         [snapshot.velocity.iter().map(|u| u.x).collect(), snapshot.velocity.iter().map(|u| u.y).collect()];
-    let (spacing, pixel) = (case.cloud.spacing, domain.x / columns as f64);
-    let surface = Surface::new(&snapshot.position, spacing, case.domain.period(), pixel, [&u, &v])?;
-    let raster = surface.raster(domain, columns, rows);
+    let surface = Surface::of(case, &snapshot.position, domain.x / columns as f64, [&u, &v])?;
+    let mut raster = surface.raster(domain, columns, rows);
+    // No arrow stands in an obstacle.
+    let covered = map::covered(case);
+    for (k, value) in raster.value.iter_mut().enumerate() {
+        if covered(k % columns, k / columns) {
+            *value = [0.0; 2];
+        }
+    }
     let speed: Vec<f64> = snapshot.velocity.iter().map(|u| u.length()).collect();
     let scale = ColourScale::magnitude(&speed);
-    let colour = |column: usize, row: usize| scale.colour(velocity(&raster, column, row).length());
+    let colour = |column: usize, row: usize| match covered(column, row) {
+        true => map::BODY,
+        false => scale.colour(velocity(&raster, column, row).length()),
+    };
     let over = |canvas: &mut Canvas, corner: DVec2| draw_arrows(canvas, corner, &raster);
     Ok(map::draw(text, &case.domain, title, &scale, ("|u|", "m/s"), colour, over))
 }

@@ -4,6 +4,8 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use crate::case::Case;
+use crate::cloud::Sizing;
 use crate::measure::{CellList, Images, MeasureError, Sampler};
 
 /// Points up to this far, in spacings, take part in a blend.
@@ -33,7 +35,12 @@ impl Continuation {
 pub struct Surface<'a, const M: usize> {
     images: Images<'a>,
     cells: CellList,
+    /// The largest, m.
     reach: f64,
+    /// Of a pixel, m.
+    pixel: f64,
+    /// Where the spacing varies.
+    sizing: Option<Sizing>,
     /// Each field at each point.
     point: Vec<[Continuation; M]>,
 }
@@ -47,12 +54,20 @@ pub struct Raster<const M: usize> {
 }
 
 impl<'a, const M: usize> Surface<'a, M> {
-    /// `spacing` and `pixel` in metres, and `period` too: the domain's length along an axis that repeats, 0 along another. Every
-    /// field holds one value a point.
+    /// On the points of a case; `pixel` in metres. Every field holds one value a point.
     ///
     /// # Errors
     /// No point, a position that is not finite, or a spacing that is not above zero.
-    pub fn new(
+    pub fn of(case: &Case, position: &'a [DVec2], pixel: f64, fields: [&[f64]; M]) -> Result<Self, MeasureError> {
+        let sampler = Sampler::of(case, position)?;
+        let sizing = Sizing::of(case);
+        let surface = Self::with_sampler(&sampler, position, case.cloud.spacing, case.domain.period(), pixel, fields)?;
+        Ok(Self { sizing: (!sizing.is_even()).then_some(sizing), ..surface })
+    }
+
+    /// `spacing` and `pixel` in metres, and `period` too: the domain's length along an axis that repeats, 0 along another.
+    fn with_sampler(
+        sampler: &Sampler,
         position: &'a [DVec2],
         spacing: f64,
         period: DVec2,
@@ -68,7 +83,6 @@ impl<'a, const M: usize> Surface<'a, M> {
         let point = if spacing < DENSE * pixel {
             (0..position.len()).map(flat).collect()
         } else {
-            let sampler = Sampler::periodic(position, spacing, period)?;
             (0..position.len())
                 .into_par_iter()
                 .map(|k| match sampler.gradient(position[k]) {
@@ -89,15 +103,19 @@ impl<'a, const M: usize> Surface<'a, M> {
                 })
                 .collect()
         };
-        Ok(Self { images, cells, reach, point })
+        Ok(Self { images, cells, reach, pixel, sizing: None, point })
     }
 
     /// The fields at a place, m.
     pub fn at(&self, at: DVec2) -> [f64; M] {
         let (mut total, mut sum) = (0.0, [0.0; M]);
-        self.cells.visit(at, self.reach, |k| {
+        let reach = match &self.sizing {
+            Some(sizing) => REACH * sizing.at(at).max(self.pixel),
+            None => self.reach,
+        };
+        self.cells.visit(at, reach, |k| {
             let d = at - self.images.position[k];
-            let share = 1.0 - d.length_squared() / (self.reach * self.reach);
+            let share = 1.0 - d.length_squared() / (reach * reach);
             if share > 0.0 {
                 let weight = share * share;
                 total += weight;
@@ -118,7 +136,8 @@ impl<'a, const M: usize> Surface<'a, M> {
     /// points lie many pixels apart, at every few and bilinearly between.
     pub fn raster(&self, domain: DVec2, columns: usize, rows: usize) -> Raster<M> {
         let pixel = domain / DVec2::new(columns as f64, rows as f64);
-        let stride = ((self.reach / REACH / pixel.max_element() / 3.0) as usize).clamp(1, 4);
+        let spacing = self.sizing.as_ref().map_or(self.reach / REACH, Sizing::least);
+        let stride = ((spacing / pixel.max_element() / 3.0) as usize).clamp(1, 4);
         // Nodes from the first pixel's centre to the last's; as many as pixels where the stride is one.
         let (across, down) = ((columns / stride).max(2), (rows / stride).max(2));
         let step = |pixels: usize, nodes: usize| (pixels - 1) as f64 / (nodes - 1) as f64;
@@ -157,6 +176,19 @@ impl<'a, const M: usize> Surface<'a, M> {
 mod tests {
     use super::*;
     use crate::measure::tests::jittered_cloud;
+
+    impl<'a, const M: usize> Surface<'a, M> {
+        fn new(
+            position: &'a [DVec2],
+            spacing: f64,
+            period: DVec2,
+            pixel: f64,
+            fields: [&[f64]; M],
+        ) -> Result<Self, MeasureError> {
+            let sampler = Sampler::periodic(position, spacing, period)?;
+            Self::with_sampler(&sampler, position, spacing, period, pixel, fields)
+        }
+    }
 
     fn largest_error(raster: &Raster<1>, exact: impl Fn(DVec2) -> f64) -> f64 {
         let size = DVec2::new(raster.width as f64, raster.height as f64);

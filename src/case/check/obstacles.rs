@@ -1,0 +1,151 @@
+//! Checks of the bodies in the fluid, and of where the points lie closer.
+
+use glam::DVec2;
+
+use super::super::fault::Fault;
+use super::super::{Arrangement, Axes, Case, Obstacle, Operators, PressureForm, Problem, Refine, Remap, SIDES};
+
+pub(super) fn check(case: &Case) -> Result<(), Fault> {
+    for (number, obstacle) in case.obstacles.iter().enumerate() {
+        let key = |name: &str| format!("obstacles.[{number}].{name}");
+        check_name(case, number, obstacle, &key)?;
+        check_shape(case, obstacle, &key)?;
+    }
+    case.cloud.refine.iter().enumerate().try_for_each(|(number, refine)| {
+        check_refine(case, refine, &|name| format!("cloud.refine.[{number}].{name}"))
+    })?;
+    check_method(case)
+}
+
+fn check_name(case: &Case, number: usize, obstacle: &Obstacle, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let name = &obstacle.name;
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if name.is_empty() || !name.chars().all(plain) || SIDES.contains(&name.as_str()) {
+        return Err(Fault::range(&key("name")));
+    }
+    if case.obstacles[..number].iter().any(|other| other.name == *name) {
+        return Err(Fault::reason(&key("name"), "is that of another obstacle; names differ"));
+    }
+    Ok(())
+}
+
+fn check_shape(case: &Case, obstacle: &Obstacle, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    let inside = |place: DVec2| {
+        place.cmpgt(DVec2::ZERO).all() && place.cmplt(DVec2::new(case.domain.width, case.domain.height)).all()
+    };
+    let outside = |name: &str| {
+        let reason = format!("must lie inside the domain, {} x {} m", case.domain.width, case.domain.height);
+        Err(Fault::reason(&key(name), reason))
+    };
+    match (&obstacle.circle, &obstacle.polygon) {
+        (Some(_), Some(_)) => {
+            Err(Fault::reason(&key("polygon"), "an obstacle has one shape, and there is a circle; leave one out"))
+        }
+        (None, None) => Err(Fault::missing(&key("circle"))),
+        (Some(circle), None) => {
+            if circle.radius <= 0.0 {
+                return Err(Fault::range(&key("circle.radius")));
+            }
+            let centre = DVec2::from_array(circle.centre);
+            if inside(centre - circle.radius) && inside(centre + circle.radius) { Ok(()) } else { outside("circle") }
+        }
+        (None, Some(corners)) => {
+            let corners: Vec<DVec2> = corners.iter().map(|&corner| DVec2::from_array(corner)).collect();
+            if corners.len() < 3 {
+                return Err(Fault::range(&key("polygon")));
+            }
+            if !corners.iter().all(|&corner| inside(corner)) {
+                return outside("polygon");
+            }
+            match crossing(&corners) {
+                Some(edge) => {
+                    let reason =
+                        format!("the edge from corner {edge} has no length, or touches another that is not next to it");
+                    Err(Fault::reason(&key("polygon"), reason))
+                }
+                None => Ok(()),
+            }
+        }
+    }
+}
+
+/// The first edge of a polygon that meets another, or has no length.
+fn crossing(corners: &[DVec2]) -> Option<usize> {
+    let count = corners.len();
+    let edge = |k: usize| (corners[k], corners[(k + 1) % count]);
+    let side = |(from, to): (DVec2, DVec2), place: DVec2| (to - from).perp_dot(place - from);
+    let meets = |one: usize, other: usize| {
+        let (a, b) = (edge(one), edge(other));
+        side(a, b.0) * side(a, b.1) <= 0.0 && side(b, a.0) * side(b, a.1) <= 0.0
+    };
+    // Neighbours share a corner, and may not turn back on each other.
+    let folds = |one: usize, next: usize| {
+        let ((from, to), (_, beyond)) = (edge(one), edge(next));
+        side((from, to), beyond) == 0.0 && (to - from).dot(beyond - to) < 0.0
+    };
+    (0..count).find(|&one| {
+        let apart = |other: &usize| (one + 1) % count != *other && (other + 1) % count != one && *other != one;
+        edge(one).0 == edge(one).1
+            || folds(one, (one + 1) % count)
+            || (0..count).filter(apart).any(|other| meets(one, other))
+    })
+}
+
+fn check_refine(case: &Case, refine: &Refine, key: &dyn Fn(&str) -> String) -> Result<(), Fault> {
+    if case.cloud.arrangement != Arrangement::Relaxed {
+        let reason = "belongs to relaxed points; with [[cloud.refine]] it must be \"relaxed\"";
+        return Err(Fault::reason("cloud.arrangement", reason));
+    }
+    if case.domain.periodic != Axes::None {
+        return Err(Fault::reason(
+            "cloud.refine",
+            "does not repeat with the domain: it needs domain.periodic = \"none\"",
+        ));
+    }
+    match (&refine.near, refine.corners) {
+        (Some(_), Some(_)) => return Err(Fault::reason(&key("box"), "there is near; leave one out")),
+        (None, None) => return Err(Fault::missing(&key("near"))),
+        (Some(near), None) => {
+            if !SIDES.contains(&near.as_str()) && case.obstacles.iter().all(|obstacle| obstacle.name != *near) {
+                return Err(Fault::range(&key("near")));
+            }
+        }
+        (None, Some(corners)) => {
+            let inside =
+                |[x, y]: [f64; 2]| (0.0..=case.domain.width).contains(&x) && (0.0..=case.domain.height).contains(&y);
+            if !corners.into_iter().all(inside) {
+                return Err(Fault::range(&key("box")));
+            }
+        }
+    }
+    if !(refine.spacing > 0.0 && refine.spacing <= case.cloud.spacing) {
+        return Err(Fault::range(&key("spacing")));
+    }
+    if !(refine.growth > 0.0 && refine.growth <= 0.3) {
+        return Err(Fault::range(&key("growth")));
+    }
+    Ok(())
+}
+
+/// What asks for lattices, and what asks for cells.
+fn check_method(case: &Case) -> Result<(), Fault> {
+    let (what, key) = match (case.obstacles.is_empty(), case.cloud.refine.is_empty()) {
+        (false, _) => ("[[obstacles]]", "obstacles"),
+        (_, false) => ("[[cloud.refine]]", "cloud.refine"),
+        _ => return Ok(()),
+    };
+    if matches!(case.problem(), Problem::Derivatives(_)) {
+        return Err(Fault::reason(key, "is compared with a lattice by [derivatives]; leave it out"));
+    }
+    if case.effects.pressure.as_ref().is_none_or(|pressure| pressure.form() != PressureForm::Conservative) {
+        let reason = format!("must be there and conservative with {what}, whose cells it balances");
+        return Err(Fault::reason("effects.pressure", reason));
+    }
+    if case.method.operators == Operators::Integral {
+        return Err(Fault::reason("method.operators", format!("must be \"interpolation\" with {what}")));
+    }
+    if case.effects.advection.as_ref().is_some_and(|advection| advection.remap == Remap::Forward) {
+        return Err(Fault::reason("effects.advection.remap", format!("must be \"departure\" with {what}")));
+    }
+    Ok(())
+}
