@@ -6,7 +6,7 @@ use super::grid::Grid;
 use super::shortest;
 
 /// The first point that no chain of points within `radius` of each other leads to from the first one, and how many groups of
-/// points there are; `None` where all are of one group. `grid` has cells of `radius` or more.
+/// points there are; `None` where all are of one group.
 pub fn first_apart(position: &[DVec2], grid: &Grid, period: DVec2, radius: f64) -> Option<(usize, usize)> {
     let mut seen = vec![false; position.len()];
     let (mut groups, mut apart) = (0, None);
@@ -23,7 +23,7 @@ pub fn first_apart(position: &[DVec2], grid: &Grid, period: DVec2, radius: f64) 
         reached.push(first);
         while let Some(point) = reached.pop() {
             let own = position[point];
-            for other in (0..=1).flat_map(|ring| grid.ring(own, ring)) {
+            for other in grid.within(own, radius) {
                 if !seen[other] && shortest(position[other] - own, period).length_squared() < radius * radius {
                     seen[other] = true;
                     reached.push(other);

@@ -27,8 +27,9 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// Iterations without a tenth off the best residual after which a solve has stagnated.
-    pub const PATIENCE: u32 = 250;
+    /// Iterations without a tenth off the best residual after which a solve has stagnated: a long channel of some ten thousand
+    /// points stands still for 250 and goes on.
+    pub const PATIENCE: u32 = 600;
     /// Times that a solve may begin again from a recomputed residual that is not what the recurrence promised.
     pub const RESTARTS: u32 = 3;
     /// [`Stop::floor`] of the conservative matrix, with about 6 entries a row.
