@@ -3,3 +3,4 @@
 mod cavity;
 mod cylinder;
 mod known;
+mod moving;
