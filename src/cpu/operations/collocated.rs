@@ -23,15 +23,7 @@ pub struct Collocated<'a, T> {
 impl<T: Real> Rows<T> for Collocated<'_, T> {
     #[inline(always)]
     fn product(&self, i: usize, p: &[T]) -> T::Pack {
-        let first = blocks::at(i, 0, self.lists.capacity);
-        let own = T::Pack::load(&p[i..]);
-        let mut sum = T::Pack::zero();
-        self.lists.for_each::<T>(i, |slot, index| {
-            // SAFETY: every stored neighbour is below the number of points.
-            let other = unsafe { T::Pack::gather(p, index) };
-            sum += T::Pack::load(&self.row[first + slot * BLOCK..]) * (other - own);
-        });
-        sum
+        self.lists.differences(i, self.row, p)
     }
 
     #[inline(always)]

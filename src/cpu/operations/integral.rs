@@ -51,6 +51,13 @@ impl Lattice {
     }
 }
 
+/// `w = r_e / r - 1` below `r_e`, from the square of `r / r_e`; nothing for the point itself, which stands in unused slots.
+#[inline(always)]
+pub fn weight<T: Real>(square: T::Pack) -> T::Pack {
+    let (one, zero) = (T::Pack::splat(T::from_f64(1.0)), T::Pack::zero());
+    square.select_above(zero, one / square.sqrt() - one, zero).max(zero)
+}
+
 /// The points and their neighbours, and what the sums are divided by.
 #[derive(Clone, Copy)]
 pub struct Means<'a, T, S> {
@@ -67,11 +74,7 @@ impl<T: Real, S: Space<T>> Means<'_, T, S> {
     #[inline(always)]
     fn for_each(&self, i: usize, mut body: impl FnMut(usize, &[u32], [T::Pack; 2], T::Pack, T::Pack)) {
         let stencil = Stencil::new(self.space, self.position, self.support, self.lists, i);
-        let (one, zero) = (T::Pack::splat(T::from_f64(1.0)), T::Pack::zero());
-        stencil.for_each(|slot, index, d, square| {
-            let weight = square.select_above(zero, one / square.sqrt() - one, zero);
-            body(slot, index, d, square, weight.max(zero));
-        });
+        stencil.for_each(|slot, index, d, square| body(slot, index, d, square, weight::<T>(square)));
     }
 }
 

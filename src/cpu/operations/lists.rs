@@ -22,4 +22,18 @@ impl Lists<'_> {
             body(slot, &self.neighbours[start..start + T::Pack::LANES]);
         }
     }
+
+    /// `sum_j row_ij (p_j - p_i)` for the points `i..i + LANES`; `row` has an entry for every slot, blocked.
+    #[inline(always)]
+    pub fn differences<T: Real>(&self, i: usize, row: &[T], p: &[T]) -> T::Pack {
+        let first = blocks::at(i, 0, self.capacity);
+        let own = T::Pack::load(&p[i..]);
+        let mut sum = T::Pack::zero();
+        self.for_each::<T>(i, |slot, index| {
+            // SAFETY: every stored neighbour is below the number of points.
+            let other = unsafe { T::Pack::gather(p, index) };
+            sum += T::Pack::load(&row[first + slot * BLOCK..]) * (other - own);
+        });
+        sum
+    }
 }

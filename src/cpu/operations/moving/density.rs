@@ -9,7 +9,7 @@
 
 use super::mirror::{Around, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::integral::{DIMENSIONS, Lattice};
+use crate::cpu::operations::integral::{DIMENSIONS, Lattice, weight};
 use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
@@ -26,15 +26,7 @@ pub struct Symmetric<'a, T> {
 impl<T: Real> Rows<T> for Symmetric<'_, T> {
     #[inline(always)]
     fn product(&self, i: usize, p: &[T]) -> T::Pack {
-        let first = blocks::at(i, 0, self.lists.capacity);
-        let own = T::Pack::load(&p[i..]);
-        let mut sum = T::Pack::zero();
-        self.lists.for_each::<T>(i, |slot, index| {
-            // SAFETY: every stored neighbour is below the number of points.
-            let other = unsafe { T::Pack::gather(p, index) };
-            sum += T::Pack::load(&self.row[first + slot * BLOCK..]) * (own - other);
-        });
-        sum
+        -self.lists.differences(i, self.row, p)
     }
 
     #[inline(always)]
@@ -49,13 +41,6 @@ impl<T: Real> Rows<T> for Symmetric<'_, T> {
 /// `2 D / (lambda n0)`, 1/m^2.
 pub fn per_area(lattice: Lattice) -> f64 {
     2.0 * DIMENSIONS / (lattice.spread * lattice.density)
-}
-
-/// MPS's weight of a neighbour, 0 in unused slots.
-#[inline(always)]
-fn weight<T: Real>(square: T::Pack) -> T::Pack {
-    let (one, zero) = (T::Pack::splat(T::from_f64(1.0)), T::Pack::zero());
-    square.select_above(zero, one / square.sqrt() - one, zero).max(zero)
 }
 
 /// Fills rows, diagonal and source; the pressure becomes 0 at the surface and behind the walls. `stiffness` is

@@ -12,6 +12,7 @@ use super::fits::{coefficient, factor_of};
 use super::mirror::{Around, OWN, Stencil};
 use crate::case::Weight;
 use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::integral;
 use crate::cpu::operations::lists::Lists;
 use crate::cpu::operations::moments;
 use crate::cpu::real::{Pack, Real};
@@ -75,14 +76,7 @@ pub fn assemble<T: Real>(
             stencil.for_each(|near| {
                 let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
                 let weight = near.counts * moments::weight(equation.weight, near.square);
-                let plain = near
-                    .square
-                    .select_above(
-                        T::Pack::zero(),
-                        T::Pack::splat(one) / near.square.sqrt() - T::Pack::splat(one),
-                        T::Pack::zero(),
-                    )
-                    .max(T::Pack::zero());
+                let plain = integral::weight::<T>(near.square);
                 let entry = inside * (fits * weight * dot(&c, basis) + near.counts * mean * plain);
                 if near.is_point() {
                     entry.store(&mut row[near.slot * BLOCK + first..]);

@@ -9,6 +9,7 @@
 
 use super::mirror::{Around, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::integral::weight;
 use crate::cpu::real::{Pack, Real};
 
 /// Places on the circle about a point; their number is that of the bits of a word.
@@ -68,15 +69,15 @@ pub fn find_surface<T: Real>(
             let mut density = zero;
             let mut covered = [zero; DIRECTIONS];
             Stencil::new(around, i).for_each(|near| {
-                let weight = match crowd.integral {
-                    true => near.square.select_above(zero, one / near.square.sqrt() - one, zero).max(zero),
+                let crowding = match crowd.integral {
+                    true => weight::<T>(near.square),
                     // Unused slots hold the point itself.
                     false => {
                         let rest = (one - near.square).max(zero);
                         near.square.select_above(zero, rest * rest, zero)
                     }
                 };
-                density += near.counts * weight;
+                density += near.counts * crowding;
                 let [x, y] = near.offset;
                 for (covered, [ex, ey]) in covered.iter_mut().zip(&directions) {
                     *covered = covered.max(near.counts * ((*ex * x + *ey * y) - near.square));
