@@ -13,8 +13,9 @@ use stillpoint::step::Buffer;
 use crate::adapter::{required, skipped};
 
 /// The files whose tests need a GPU.
-const SOURCES: [&str; 6] = [
+const SOURCES: [&str; 7] = [
     include_str!("forms.rs"),
+    include_str!("moving.rs"),
     include_str!("operations.rs"),
     include_str!("runs.rs"),
     include_str!("memory.rs"),

@@ -15,6 +15,7 @@ mod coverage;
 mod engines;
 mod forms;
 mod memory;
+mod moving;
 mod operations;
 mod runs;
 mod scenes;
