@@ -80,18 +80,12 @@ pub fn resume(
     observer: &mut dyn Observer,
 ) -> Result<Report, RunError> {
     let prepared = Instant::now();
-    let step = state.progress.step;
+    let (step, case) = (state.progress.step, &job.scene.case);
     let rows = Some(DiagnosticsWriter::resume(&job.folder.diagnostics(), step, probes(job.scene)?)?);
-    let mut writer = Recorder {
-        job,
-        info: engine.info(),
-        rows,
-        motion: None,
-        history: Vec::new(),
-        observer,
-        kept: Some(step),
-        failed: None,
-    };
+    let moved = state.progress.motion.map(|known| MotionWriter::resume(job.folder, case, step, known.frames));
+    let (motion, history) = moved.transpose()?.map_or((None, Vec::new()), |(motion, rows)| (Some(motion), rows));
+    let mut writer =
+        Recorder { job, info: engine.info(), rows, motion, history, observer, kept: Some(step), failed: None };
     let outcome = simulation::resume(job.scene, engine, &mut writer, state)?;
     finish(writer, outcome, prepared)
 }
@@ -265,11 +259,8 @@ impl Recorder<'_> {
     /// Writes a checkpoint, the rows before it first.
     fn write(&mut self, state: &State) {
         let Job { case_path, scene, folder, checkpoint_every } = self.job;
-        // Their rows and frames are not taken up again.
-        if scene.plan.moves() {
-            return;
-        }
         let synced = self.rows.as_mut().map_or(Ok(()), DiagnosticsWriter::sync);
+        let synced = synced.and_then(|()| self.motion.as_mut().map_or(Ok(()), MotionWriter::sync));
         let path = folder.checkpoint();
         let written =
             synced.and_then(|()| checkpoint::write(&path, case_path, &scene.case, &self.info, checkpoint_every, state));

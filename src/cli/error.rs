@@ -42,8 +42,6 @@ pub enum CliError {
     Scene { path: PathBuf, source: SceneError },
     #[error("{}: cannot go on where it began: {error}", path.display())]
     Reopen { path: PathBuf, error: Box<CliError> },
-    #[error("--checkpoint-every: runs of points that move cannot be gone on with; leave it out")]
-    CheckpointMoving,
     #[error("no engine computes {0}")]
     UnknownEngine(String),
     #[error("{}: the run came to its end; there is nothing to go on with", path.display())]
@@ -86,7 +84,6 @@ impl CliError {
                 | CompareError::Domains { .. }
                 | CompareError::Reference(_),
             )
-            | CliError::CheckpointMoving
             | CliError::Engine(
                 EngineError::TooLarge { .. } | EngineError::OutOfMemory { .. } | EngineError::Adapter(_),
             )

@@ -21,9 +21,6 @@ pub(super) fn run(arguments: &RunArguments) -> Result<(), CliError> {
     let scene = Arc::new(Scene::build(&case).map_err(scene)?);
     let mut engine = open(&scene, arguments)?;
     let mut progress = Progress::new(case.time.end, arguments.quiet, StopFlag::on_interrupt()?);
-    if scene.plan.moves() && arguments.checkpoint_every.is_some() {
-        return Err(CliError::CheckpointMoving);
-    }
     let folder = RunFolder::create(&path, arguments.force)?;
     let case_path = &arguments.case.case;
     let job = Job { case_path, scene: &scene, folder: &folder, checkpoint_every: arguments.checkpoint_every };

@@ -270,6 +270,9 @@ impl Checkpoint {
         if buffers.len() != data.len() || !buffers.iter().zip(head.arrays.iter().zip(&data)).all(fits) {
             return Err(useless("its arrays are not those that its case needs".to_owned()));
         }
+        if head.progress.motion.is_some() != scene.plan.moves() {
+            return Err(useless("how its motion began does not go with its case".to_owned()));
+        }
         let state = State { progress: head.progress, arrays: buffers.into_iter().zip(data).collect() };
         match state.non_finite(scene) {
             Some(field) => Err(useless(format!("{} of point {} is not finite", field.buffer.name(), field.point))),

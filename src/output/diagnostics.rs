@@ -1,11 +1,11 @@
 //! diagnostics.csv: one row a report, on disk before the next step begins; a column for each probe behind the others.
 
 use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::OutputError;
-use super::file::{finite, write_whole};
+use super::file::finite;
+use super::{OutputError, rows};
 use crate::simulation::Diagnostics;
 
 const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_iterations,residual,change,limit";
@@ -37,35 +37,7 @@ impl DiagnosticsWriter {
     /// # Errors
     /// A file that is not of this kind, or lacks the row of that step; errors of the file system.
     pub fn resume(path: &Path, step: u64, probes: Vec<String>) -> Result<Self, OutputError> {
-        let header = header(&probes);
-        let wrong = |line: usize, what: &str| OutputError::Csv { path: path.to_owned(), line, what: what.to_owned() };
-        let mut file = BufReader::new(File::open(path).map_err(OutputError::io(path))?);
-        let (mut kept, mut lines, mut last) = (Vec::new(), 0, 0);
-        loop {
-            let begin = kept.len();
-            file.read_until(b'\n', &mut kept).map_err(OutputError::io(path))?;
-            let line = kept[begin..].strip_suffix(b"\n");
-            let step_of =
-                |line: &[u8]| std::str::from_utf8(line.split(|&byte| byte == b',').next()?).ok()?.parse().ok();
-            match line {
-                Some(line) if lines == 0 && line == header.as_bytes() => {}
-                Some(line) if lines > 0 => match step_of(line) {
-                    Some(row) if row <= step => last = row,
-                    Some(_) => kept.truncate(begin),
-                    None => return Err(wrong(lines + 1, "does not begin with the number of a step")),
-                },
-                _ if lines == 0 => return Err(wrong(1, "not the header of a run's diagnostics")),
-                _ => kept.truncate(begin),
-            }
-            if kept.len() == begin {
-                break;
-            }
-            lines += 1;
-        }
-        if last != step {
-            return Err(wrong(lines, &format!("the row of step {step}, which the checkpoint is of, is not there")));
-        }
-        write_whole(path, |file| file.write_all(&kept).map_err(OutputError::io(path)))?;
+        rows::cut(path, &header(&probes), "diagnostics", step)?;
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
         hold(&file);
         Ok(Self { path: path.to_owned(), file, probes })

@@ -32,11 +32,12 @@ pub(crate) fn write_durable(
     write_and(path, write, |file| file.sync_all().map_err(OutputError::io(path)))?;
     // The new name is in the folder, and so is to be on the disk too; not every system opens folders.
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if cfg!(unix) {
-        File::open(folder).and_then(|folder| folder.sync_all()).map_err(OutputError::io(folder))
-    } else {
-        Ok(())
-    }
+    if cfg!(unix) { sync(folder) } else { Ok(()) }
+}
+
+/// Has a file, or the names in a folder, on the disk itself.
+pub(super) fn sync(path: &Path) -> Result<(), OutputError> {
+    File::open(path).and_then(|file| file.sync_all()).map_err(OutputError::io(path))
 }
 
 fn write_and(

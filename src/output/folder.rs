@@ -97,13 +97,13 @@ impl RunFolder {
 
     /// Removes files of a run that are not whole.
     fn remove_parts(&self) -> Result<(), OutputError> {
-        for entry in fs::read_dir(&self.path).map_err(OutputError::io(&self.path))? {
-            let file = entry.map_err(OutputError::io(&self.path))?.path();
-            let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let of_a_run = FILES.iter().any(|known| name.strip_prefix(known).is_some_and(|rest| rest.starts_with('.')));
-            if (of_a_run || name.starts_with(TRACER)) && name.ends_with(PART) {
-                remove(&file)?;
-            }
+        let of_a_run = |name: &str| {
+            FILES.iter().any(|known| name.strip_prefix(known).is_some_and(|rest| rest.starts_with('.')))
+                || name.starts_with(TRACER)
+        };
+        remove_those(&self.path, |name| of_a_run(name) && name.ends_with(PART))?;
+        if self.frames().is_dir() {
+            remove_those(&self.frames(), |name| of_frames(name) && name.ends_with(PART))?;
         }
         Ok(())
     }
@@ -205,30 +205,39 @@ impl RunFolder {
 }
 
 /// Removes a file that may be absent.
-fn remove(file: &Path) -> Result<(), OutputError> {
+pub(super) fn remove(file: &Path) -> Result<(), OutputError> {
     match fs::remove_file(file) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(OutputError::io(file)(error)),
         _ => Ok(()),
     }
 }
 
-/// Removes the frames of a run and their times, and the folder if nothing else is in it.
-fn remove_frames(frames: &Path) -> Result<(), OutputError> {
-    if !frames.is_dir() {
-        return Ok(());
-    }
+/// Removes the files of a folder whose names are such. Returns whether others are left.
+fn remove_those(folder: &Path, such: impl Fn(&str) -> bool) -> Result<bool, OutputError> {
     let mut others = false;
-    for entry in fs::read_dir(frames).map_err(OutputError::io(frames))? {
-        let path = entry.map_err(OutputError::io(frames))?.path();
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let numbered = name.len() >= 4 && name.chars().all(|c| c.is_ascii_digit());
-        if path.extension().is_some_and(|end| end == "csv") && (numbered || name == "times") {
-            remove(&path)?;
-        } else {
-            others = true;
+    for entry in fs::read_dir(folder).map_err(OutputError::io(folder))? {
+        let path = entry.map_err(OutputError::io(folder))?.path();
+        match path.file_name().is_some_and(|name| such(&name.to_string_lossy())) {
+            true => remove(&path)?,
+            false => others = true,
         }
     }
-    if others { Ok(()) } else { fs::remove_dir(frames).map_err(OutputError::io(frames)) }
+    Ok(others)
+}
+
+/// True of the name of a frame and of that of their times, whole or not.
+fn of_frames(name: &str) -> bool {
+    let (stem, end) = name.split_once('.').unwrap_or((name, ""));
+    let numbered = stem.len() >= 4 && stem.chars().all(|c| c.is_ascii_digit());
+    (numbered || stem == "times") && (end == "csv" || end.starts_with("csv.") && end.ends_with(PART))
+}
+
+/// Removes the frames of a run and their times, and the folder if nothing else is in it.
+fn remove_frames(frames: &Path) -> Result<(), OutputError> {
+    if frames.is_dir() && !remove_those(frames, of_frames)? {
+        fs::remove_dir(frames).map_err(OutputError::io(frames))?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -303,13 +312,15 @@ mod tests {
     fn what_a_kill_left_half_written_is_removed_and_nothing_else() {
         let root = tempfile::tempdir().unwrap();
         let path = |name: &str| root.path().join(name);
-        for name in ["checkpoint.17.part", "summary.json.9.part", "notes.part", "checkpoint"] {
+        fs::create_dir(path("frames")).unwrap();
+        let parts = ["checkpoint.17.part", "summary.json.9.part", "frames/0003.csv.9.part", "frames/times.csv.9.part"];
+        let others = ["notes.part", "checkpoint", "frames/0003.csv", "frames/mine.part"];
+        for name in parts.iter().chain(&others) {
             fs::write(path(name), "").unwrap();
         }
         RunFolder::resume(root.path()).unwrap();
-        let left =
-            ["checkpoint.17.part", "summary.json.9.part", "notes.part", "checkpoint"].map(|name| path(name).exists());
-        assert_eq!(left, [false, false, true, true]);
+        assert!(parts.iter().all(|name| !path(name).exists()));
+        assert!(others.iter().all(|name| path(name).exists()));
     }
 
     #[test]

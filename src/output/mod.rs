@@ -8,6 +8,7 @@ mod folder;
 pub mod motion;
 pub mod picture;
 pub mod points;
+mod rows;
 mod summary;
 pub mod vtu;
 

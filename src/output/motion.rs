@@ -1,11 +1,12 @@
 //! What points that move leave behind: motion.csv, one row a report, and frames/, the whole state at regular times.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::file::finite;
-use super::{OutputError, RunFolder, points};
+use super::file::{finite, sync, write_whole};
+use super::folder::remove;
+use super::{OutputError, RunFolder, points, rows};
 use crate::case::Case;
 use crate::motion::Row;
 use crate::snapshot::Snapshot;
@@ -18,7 +19,10 @@ pub struct MotionWriter {
     path: PathBuf,
     file: File,
     frames: PathBuf,
+    /// Times of the frames, s.
     kept: Vec<f64>,
+    /// Frames of which the disk itself has every byte.
+    synced: usize,
 }
 
 impl MotionWriter {
@@ -29,12 +33,56 @@ impl MotionWriter {
     pub fn create(folder: &RunFolder, case: &Case) -> Result<Self, OutputError> {
         let (path, frames) = (folder.motion(), folder.frames());
         let mut file = File::create(&path).map_err(OutputError::io(&path))?;
-        let sensors: String = case.output.sensors.keys().map(|name| format!(",p_{name}")).collect();
-        writeln!(file, "{HEADER}{sensors}").map_err(OutputError::io(&path))?;
+        writeln!(file, "{}", header(case)).map_err(OutputError::io(&path))?;
         if case.output.frame_every.is_some() {
             fs::create_dir_all(&frames).map_err(OutputError::io(&frames))?;
         }
-        Ok(Self { path, file, frames, kept: Vec::new() })
+        Ok(Self { path, file, frames, kept: Vec::new(), synced: 0 })
+    }
+
+    /// Goes on with the files of a run from its state after `step`, when it had kept so many frames: what is behind them is
+    /// dropped, to be made again. The rows up to there come with it.
+    ///
+    /// # Errors
+    /// A file that is not of this kind, or lacks the row of that step, or frames; errors of the file system.
+    pub fn resume(folder: &RunFolder, case: &Case, step: u64, count: u32) -> Result<(Self, Vec<Row>), OutputError> {
+        let (path, frames) = (folder.motion(), folder.frames());
+        rows::cut(&path, &header(case), "motion", step)?;
+        let rows = read(&path)?;
+        let mut kept = Frames::open(&frames)?.times;
+        let (found, count) = (kept.len(), count as usize);
+        kept.truncate(count);
+        if let Some(number) = (0..count).find(|&number| number >= found || !frame(&frames, number).is_file()) {
+            let what = format!("frame {number}, which the checkpoint counts on, is not there");
+            return Err(OutputError::Csv { path: times(&frames), line: number + 2, what });
+        }
+        // One more than it has the times of: a kill came between the two.
+        for number in count..=found {
+            remove(&frame(&frames, number))?;
+        }
+        let file = OpenOptions::new().append(true).open(&path).map_err(OutputError::io(&path))?;
+        let writer = Self { path, file, frames, kept, synced: count };
+        if case.output.frame_every.is_some() {
+            writer.write_times()?;
+        }
+        Ok((writer, rows))
+    }
+
+    /// Has rows and frames on the disk itself: they are to be there before a checkpoint that counts on them.
+    ///
+    /// # Errors
+    /// Errors of the file system.
+    pub fn sync(&mut self) -> Result<(), OutputError> {
+        self.file.sync_data().map_err(OutputError::io(&self.path))?;
+        if self.synced < self.kept.len() {
+            (self.synced..self.kept.len()).try_for_each(|number| sync(&frame(&self.frames, number)))?;
+            sync(&times(&self.frames))?;
+            if cfg!(unix) {
+                sync(&self.frames)?;
+            }
+            self.synced = self.kept.len();
+        }
+        Ok(())
     }
 
     /// Appends one row and flushes it.
@@ -61,10 +109,20 @@ impl MotionWriter {
     pub fn keep(&mut self, snapshot: &Snapshot) -> Result<(), OutputError> {
         points::write(&frame(&self.frames, self.kept.len()), snapshot)?;
         self.kept.push(snapshot.time);
-        let path = self.frames.join("times.csv");
-        let rows: String = self.kept.iter().enumerate().map(|(k, time)| format!("{k},{time:?}\n")).collect();
-        fs::write(&path, format!("frame,time\n{rows}")).map_err(OutputError::io(&path))
+        self.write_times()
     }
+
+    fn write_times(&self) -> Result<(), OutputError> {
+        let path = times(&self.frames);
+        let rows: String = self.kept.iter().enumerate().map(|(k, time)| format!("{k},{time:?}\n")).collect();
+        write_whole(&path, |file| write!(file, "frame,time\n{rows}").map_err(OutputError::io(&path)))
+    }
+}
+
+/// The first line of motion.csv.
+fn header(case: &Case) -> String {
+    let sensors: String = case.output.sensors.keys().map(|name| format!(",p_{name}")).collect();
+    format!("{HEADER}{sensors}")
 }
 
 /// The rows of motion.csv, its columns behind the fixed ones those of the sensors.
@@ -120,7 +178,7 @@ impl Frames {
     /// # Errors
     /// A file of times that is no such table, errors of the file system.
     pub fn open(folder: &Path) -> Result<Self, OutputError> {
-        let path = folder.join("times.csv");
+        let path = times(folder);
         if !path.is_file() {
             return Ok(Self { folder: folder.to_owned(), times: Vec::new() });
         }
@@ -161,6 +219,11 @@ impl Frames {
 /// The file of a frame.
 fn frame(frames: &Path, number: usize) -> PathBuf {
     frames.join(format!("{number:04}.csv"))
+}
+
+/// The file of their times.
+fn times(frames: &Path) -> PathBuf {
+    frames.join("times.csv")
 }
 
 #[cfg(test)]
@@ -209,6 +272,19 @@ mod tests {
         }
         let frames = Frames::open(&folder.frames()).unwrap();
         assert_eq!((frames.count(), frames.read(1).unwrap()), (3, state(0.5)));
+        // Gone on with from step 1, when there were two.
+        let (mut resumed, rows) = MotionWriter::resume(&folder, &case(), 1, 2).unwrap();
+        assert_eq!(rows, [row(1)]);
+        assert!(!folder.frames().join("0002.csv").exists());
+        resumed.append(&row(2)).unwrap();
+        resumed.keep(&state(1.0)).unwrap();
+        resumed.sync().unwrap();
+        assert_eq!(read(&folder.motion()).unwrap(), [row(1), row(2)]);
+        assert_eq!(Frames::open(&folder.frames()).unwrap(), frames);
+        let lacks = MotionWriter::resume(&folder, &case(), 2, 4).unwrap_err().to_string();
+        assert!(lacks.ends_with("times.csv, line 5: frame 3, which the checkpoint counts on, is not there"), "{lacks}");
+        let lacks = MotionWriter::resume(&folder, &case(), 3, 1).unwrap_err().to_string();
+        assert!(lacks.contains("the row of step 3, which the checkpoint is of, is not there"), "{lacks}");
         assert_eq!([0.0, 0.7, 1.2, 1.4].map(|time| frames.near(time)), [Some(0), Some(1), Some(2), None]);
         assert_eq!(Frames::open(root.path()).unwrap().count(), 0);
     }

@@ -25,7 +25,7 @@ use crate::step::{Buffer, Operation, Points, Rung, Stage};
 pub use guard::{Limit, Trouble};
 pub use prices::{Prices, prices};
 use row::Row;
-pub use state::{Progress, State};
+pub use state::{Motion, Progress, State};
 
 /// One row of `diagnostics.csv`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

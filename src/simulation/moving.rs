@@ -1,6 +1,6 @@
 //! Points that move: what is measured of them on the way, what is watched, and how long their steps may be.
 
-use super::Run;
+use super::{Motion, Progress, Run};
 use crate::engine::{Data, EngineError};
 use crate::motion;
 use crate::scene::Scene;
@@ -18,16 +18,17 @@ const CLUMPED: f64 = 0.01;
 
 /// Watches points that move for a motion that is no longer one of the fluid.
 pub(super) struct Watch {
-    /// Area that the fluid covered at the start, m^2; 0 before.
-    area: f64,
-    /// Energy at the start above that of all fluid on the floor, m^4/s^2.
-    start: Option<f64>,
     /// Potential energy of all fluid on the floor, m^4/s^2.
     floor: f64,
-    /// Frames that have been kept.
-    frames: u32,
-    /// What is to be told with the row.
-    row: Option<(Snapshot, motion::Row)>,
+    look: Option<Look>,
+}
+
+/// What is to be told with a row.
+struct Look {
+    snapshot: Snapshot,
+    row: motion::Row,
+    /// It is to be kept as a frame.
+    frame: bool,
 }
 
 impl Watch {
@@ -35,13 +36,17 @@ impl Watch {
         let (gravity, size) = (scene.constants.gravity, scene.constants.size);
         let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
         let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
-        Self { area: 0.0, start: None, floor, frames: 0, row: None }
+        Self { floor, look: None }
     }
 
-    /// What is wrong, if something is.
-    fn judge(&mut self, row: &motion::Row) -> Option<String> {
-        let energy = row.kinetic_energy + row.potential_energy - self.floor;
-        let start = *self.start.get_or_insert(energy);
+    /// Energy above that of all fluid on the floor, m^4/s^2.
+    fn energy(&self, row: &motion::Row) -> f64 {
+        row.kinetic_energy + row.potential_energy - self.floor
+    }
+
+    /// What is wrong, if something is; `start` is the energy at the start.
+    fn judge(&self, row: &motion::Row, start: f64) -> Option<String> {
+        let energy = self.energy(row);
         if row.nearest[0] < CLUMPED {
             return Some(format!("two points are {:.1e} spacings apart", row.nearest[0]));
         }
@@ -72,31 +77,35 @@ impl Run<'_> {
     }
 
     /// Measures points that move, to be told with the row; what is wrong with their motion, if something is.
-    pub(super) fn look_at_points(&mut self, step: u64, time: f64) -> Result<Option<String>, EngineError> {
+    pub(super) fn look_at_points(&mut self, progress: &mut Progress) -> Result<Option<String>, EngineError> {
         if !self.scene.plan.moves() {
             return Ok(None);
         }
-        let (snapshot, row) = self.moved(step, time)?;
-        let wrong = self.moving.judge(&row);
-        self.moving.row = wrong.is_none().then_some((snapshot, row));
+        let mut area = progress.motion.map_or(0.0, |motion| motion.area);
+        let (snapshot, row) = self.moved(progress.step, progress.time, &mut area)?;
+        let begun = Motion { area, energy: self.moving.energy(&row), frames: 0 };
+        let motion = progress.motion.get_or_insert(begun);
+        let wrong = self.moving.judge(&row, motion.energy);
+        if wrong.is_none() {
+            let due = |every: f64| row.time >= f64::from(motion.frames) * every * (1.0 - 1e-9);
+            let frame = self.scene.case.output.frame_every.is_some_and(due);
+            motion.frames += u32::from(frame);
+            self.moving.look = Some(Look { snapshot, row, frame });
+        }
         Ok(wrong)
     }
 
     /// Tells the observer of the last look.
     pub(super) fn tell_moved(&mut self) {
-        let Some((snapshot, row)) = self.moving.row.take() else { return };
+        let Some(Look { snapshot, row, frame }) = self.moving.look.take() else { return };
         self.observer.moved(&row);
-        let every = self.scene.case.output.frame_every.unwrap_or(f64::INFINITY);
-        if snapshot.time == 0.0 || snapshot.time >= f64::from(self.moving.frames) * every * (1.0 - 1e-9) {
-            if every.is_finite() {
-                self.observer.frame(&snapshot);
-            }
-            self.moving.frames += 1;
+        if frame {
+            self.observer.frame(&snapshot);
         }
     }
 
     /// The state of points that move, and what is measured of it.
-    fn moved(&mut self, step: u64, time: f64) -> Result<(Snapshot, motion::Row), EngineError> {
+    fn moved(&mut self, step: u64, time: f64, area: &mut f64) -> Result<(Snapshot, motion::Row), EngineError> {
         let snapshot = self.snapshot(time)?;
         let pressured = self.scene.sizes.pressured;
         let mut index = |buffer: Buffer| match self.engine.read(buffer) {
@@ -119,7 +128,7 @@ impl Run<'_> {
             surface: &surface,
             rung: &rung,
         };
-        let row = motion::measure(self.scene, &state, step, time, &mut self.moving.area);
+        let row = motion::measure(self.scene, &state, step, time, area);
         Ok((snapshot, row))
     }
 }

@@ -27,9 +27,9 @@ impl Run<'_> {
         let viscous = Some(self.limit).filter(|limit| limit.is_finite());
         let warnings = self.warnings.clone();
         let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);
-        let progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
+        let mut progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
+        self.look_at_points(&mut progress)?;
         let good = State::read(self.scene, self.engine, &progress)?;
-        self.look_at_points(0, 0.0)?;
         self.tell_moved();
         self.observer.keep(&good);
         Ok(good)
@@ -110,7 +110,7 @@ impl Run<'_> {
         if let Some(trouble) = self.watch(&row)? {
             return Ok(Row::Trouble(trouble));
         }
-        if let Some(reason) = self.look_at_points(progress.step, progress.time)? {
+        if let Some(reason) = self.look_at_points(progress)? {
             return Ok(Row::Trouble(Trouble::Diverged(reason)));
         }
         if !self.probes.is_empty() {

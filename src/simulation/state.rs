@@ -29,6 +29,21 @@ pub struct Progress {
     /// Pressure iterations of all steps.
     pub iterations: u64,
     pub warnings: Vec<String>,
+    /// Of points that move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
+}
+
+/// What points that move are held against, and how many of their frames there are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Area that the fluid covered at the start, m^2.
+    pub area: f64,
+    /// Energy at the start above that of all fluid on the floor, m^4/s^2.
+    pub energy: f64,
+    /// Frames that have been kept.
+    pub frames: u32,
 }
 
 impl Progress {
@@ -40,6 +55,9 @@ impl Progress {
             _ if !positive(self.dt) => Err("its time step is none"),
             _ if !(self.speed.is_finite() && self.speed >= 0.0) => Err("its speed is none"),
             _ if !self.viscous.is_none_or(positive) => Err("its viscous limit is none"),
+            Self { motion: Some(Motion { area, energy, .. }), .. } if !(positive(*area) && energy.is_finite()) => {
+                Err("its first area or energy is none")
+            }
             _ => Ok(()),
         }
     }

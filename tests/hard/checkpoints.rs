@@ -4,25 +4,35 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::output::checkpoint::{self, Checkpoint};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{State, simulate};
+use stillpoint::simulation::{Motion, State, simulate};
 
 use crate::cases::cavity_of;
-use crate::folders::{message, result, run, stillpoint};
+use crate::columns::column;
+use crate::folders::{SHIFTED, message, result, run, run_of, stillpoint};
 use crate::random::Random;
 use crate::resuming::Keeper;
 
 /// A checkpoint of a run on 81 points, and what it holds.
 pub fn written(path: &Path) -> (Arc<Scene>, State) {
-    let case = cavity_of(8, &["cloud.arrangement=jittered", "time.end=0.5", "output.report_every=2"]);
-    let scene = Arc::new(Scene::build(&case).expect("a scene"));
+    written_of(path, &cavity_of(8, &["cloud.arrangement=jittered", "time.end=0.5", "output.report_every=2"]))
+}
+
+/// The same of a column of 96 points that move.
+pub fn written_of_moving(path: &Path) -> (Arc<Scene>, State) {
+    written_of(path, &column(&["time.end=0.03", "output.report_every=2"]))
+}
+
+fn written_of(path: &Path, case: &Case) -> (Arc<Scene>, State) {
+    let scene = Arc::new(Scene::build(case).expect("a scene"));
     let mut engine = cpu::single(&scene).expect("an engine");
     let mut keeper = Keeper::default();
     simulate(&scene, engine.as_mut(), &mut keeper).expect("a run");
     let state = keeper.states[1].clone();
-    checkpoint::write(path, Path::new("a/case.toml"), &case, &engine.info(), Some(7), &state).expect("a file");
+    checkpoint::write(path, Path::new("a/case.toml"), case, &engine.info(), Some(7), &state).expect("a file");
     (scene, state)
 }
 
@@ -110,6 +120,52 @@ fn numbers_that_are_none_are_refused() {
     state = good;
     state.progress.dt = 0.0;
     assert!(write(&state).ends_with("cannot be used: its time step is none"), "{}", write(&state));
+}
+
+#[test]
+fn how_a_motion_began_is_kept_and_belongs_to_points_that_move() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("checkpoint");
+    let (scene, mut state) = written_of_moving(&path);
+    let read = || Checkpoint::read(&path).and_then(|checkpoint| checkpoint.state(&scene, &path));
+    assert!(read().expect("the state") == state);
+    let motion = state.progress.motion.expect("a motion");
+    assert!(motion.area > 0.0 && motion.energy > 0.0 && motion.frames == 1, "{motion:?}");
+    let info = cpu::single(&scene).expect("an engine").info();
+    let mut said = |motion: Option<Motion>| {
+        state.progress.motion = motion;
+        checkpoint::write(&path, Path::new("c.toml"), &scene.case, &info, None, &state).expect("a file");
+        read().expect_err("no motion").to_string()
+    };
+    let none = said(Some(Motion { area: 0.0, ..motion }));
+    assert!(none.ends_with("its first area or energy is none"), "{none}");
+    assert!(said(None).ends_with("how its motion began does not go with its case"), "{}", said(None));
+}
+
+#[test]
+fn frames_and_rows_that_a_checkpoint_counts_on_have_to_be_there() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("run");
+    let set = ["effects.advection.motion=lagrangian", "time.end=0.6"];
+    let more: Vec<&str> = set.iter().flat_map(|key| ["--set", key]).collect();
+    let output = run_of(&SHIFTED, folder.path(), "run", &more).output().expect("the command starts");
+    let first = message(&output);
+    assert!(first.contains("kept: the state after step"), "the paper's form comes to grief: {first}");
+    let resume = || {
+        let output = stillpoint(folder.path(), &["resume", "run", "--quiet"]).output().expect("the command starts");
+        (output.status.code(), message(&output))
+    };
+    let left = result(&out);
+    assert_eq!(resume(), (Some(1), first), "and does so again when it is gone on with");
+    assert!(result(&out) == left);
+    fs::remove_file(out.join("frames/0001.csv")).expect("a frame");
+    let (code, said) = resume();
+    let expected = "error: run/frames/times.csv, line 3: frame 1, which the checkpoint counts on, is not there";
+    assert!(code == Some(2) && said.trim_end() == expected, "{said}");
+    fs::write(out.join("motion.csv"), "step\n1\n").expect("a file");
+    let (code, said) = resume();
+    let expected = "error: run/motion.csv, line 1: not the header of a run's motion";
+    assert!(code == Some(2) && said.trim_end() == expected, "{said}");
 }
 
 #[test]

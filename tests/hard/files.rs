@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::ROOT;
-use crate::checkpoints::written;
+use crate::checkpoints::{written, written_of_moving};
 use crate::hostile;
 use crate::random::Random;
 
@@ -92,6 +92,9 @@ fn spoiled_study_files_are_read_or_refused_in_one_line() {
 fn spoiled_checkpoints_are_read_or_refused_in_one_line() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("checkpoint");
-    written(&path);
-    spoil(&[fs::read(&path).expect("a file")], 3000, 3, hostile::checkpoint);
+    let seeds = [written, written_of_moving].map(|write| {
+        write(&path);
+        fs::read(&path).expect("a file")
+    });
+    spoil(&seeds, 3000, 3, hostile::checkpoint);
 }

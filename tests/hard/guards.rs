@@ -227,7 +227,7 @@ fn a_run_that_fails_ends_with_1_and_one_line_and_leaves_what_it_has() {
     }
     let out = folder.path().join("run");
     let left = result(&out);
-    assert!(left.iter().all(|file| !file.windows(3).any(|word| [&b"NaN"[..], b"inf"].contains(&word))));
+    assert!(left.iter().all(|file| !file.1.windows(3).any(|word| [&b"NaN"[..], b"inf"].contains(&word))));
     // It fails in the same way when it is gone on with.
     let output = stillpoint(folder.path(), &["resume", "run", "--quiet"]).output().expect("the command starts");
     assert_eq!((output.status.code(), message(&output)), (Some(1), said));

@@ -5,16 +5,18 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::Instant;
 
-use crate::folders::{message, result, run, stillpoint};
+use crate::folders::{CAVITY, MPS, SHIFTED, Small, message, result, run_of, stillpoint};
 use crate::random::Random;
+
+/// Of the cavity.
+const LONG: &[&str] = &["--set", "time.end=30.0"];
 
 /// Kills a run `kills` times in a row at random moments, each time another process that went on with it, until it is done,
 /// and again from the beginning; compares what is left with a run that was left alone.
-fn kill(kills: usize, seed: u64) {
+fn kill(small: &Small, more: &[&str], kills: usize, seed: u64) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let more = ["--set", "time.end=30.0"];
     let started = Instant::now();
-    let output = run(folder.path(), "whole", &more).output().expect("the command starts");
+    let output = run_of(small, folder.path(), "whole", more).output().expect("the command starts");
     assert!(output.status.success(), "{}", message(&output));
     let length = started.elapsed();
     let expected = result(&folder.path().join("whole"));
@@ -27,7 +29,7 @@ fn kill(kills: usize, seed: u64) {
             let begun = out.join("checkpoint").exists();
             let mut command = match begun {
                 true => stillpoint(folder.path(), &["resume", "killed", "--quiet"]),
-                false => run(folder.path(), "killed", &[&more[..], &["--force"]].concat()),
+                false => run_of(small, folder.path(), "killed", &[more, &["--force"]].concat()),
             };
             let mut process = command.spawn().expect("the command starts");
             if done < kills {
@@ -57,19 +59,34 @@ fn kill(kills: usize, seed: u64) {
 
 /// Whatever there is after a kill is whole.
 fn check(out: &Path) {
-    if let Ok(rows) = fs::read_to_string(out.join("diagnostics.csv")) {
-        assert!(rows.is_empty() || rows.ends_with('\n'), "half a row");
-        assert!(!rows.contains("NaN") && !rows.contains("inf"), "{rows}");
+    for name in ["diagnostics.csv", "motion.csv", "frames/times.csv"] {
+        if let Ok(rows) = fs::read_to_string(out.join(name)) {
+            assert!(rows.is_empty() || rows.ends_with('\n'), "half a row");
+            assert!(!rows.contains("NaN") && !rows.contains("inf"), "{rows}");
+        }
     }
 }
 
 #[test]
 fn a_killed_run_goes_on_to_the_same_bits() {
-    kill(8, 1);
+    kill(&CAVITY, LONG, 8, 1);
+}
+
+#[test]
+fn killed_runs_of_points_that_move_go_on_to_the_same_bits() {
+    kill(&SHIFTED, &[], 4, 3);
+    kill(&MPS, &[], 2, 4);
 }
 
 #[test]
 #[ignore = "some minutes"]
 fn two_hundred_kills() {
-    kill(200, 2);
+    kill(&CAVITY, LONG, 200, 2);
+}
+
+#[test]
+#[ignore = "some minutes"]
+fn a_hundred_kills_of_points_that_move() {
+    kill(&SHIFTED, &[], 50, 5);
+    kill(&MPS, &[], 50, 6);
 }

@@ -13,6 +13,7 @@ mod random;
 mod spoiled;
 
 mod checkpoints;
+mod columns;
 mod files;
 mod flow;
 mod folders;

@@ -3,10 +3,13 @@
 #![allow(dead_code, reason = "each fuzz target calls one of them")]
 
 use std::path::Path;
+use std::sync::Arc;
 
 use stillpoint::case::Case;
+use stillpoint::cpu;
 use stillpoint::output::checkpoint::Checkpoint;
 use stillpoint::scene::Scene;
+use stillpoint::simulation::State;
 use stillpoint::study::Study;
 
 use super::ROOT;
@@ -47,7 +50,8 @@ pub fn study(bytes: &[u8]) -> bool {
     }
 }
 
-/// Reads a checkpoint, as it is and with a right checksum behind it, and fits that of a small case to its scene.
+/// Reads a checkpoint, as it is and with a right checksum behind it, fits that of a small case to its scene, and gives it to an
+/// engine.
 pub fn checkpoint(bytes: &[u8]) -> bool {
     let path = Path::new("hostile");
     let read = |bytes: &[u8]| {
@@ -56,7 +60,7 @@ pub fn checkpoint(bytes: &[u8]) -> bool {
                 return Ok(());
             }
             match Scene::build(&checkpoint.case) {
-                Ok(scene) => checkpoint.state(&scene, path).map(|_| ()),
+                Ok(scene) => checkpoint.state(&scene, path).map(|state| put(scene, &state)),
                 Err(_) => Ok(()),
             }
         });
@@ -71,6 +75,14 @@ pub fn checkpoint(bytes: &[u8]) -> bool {
     let body = &bytes[..bytes.len().saturating_sub(4)];
     let mended = [body, &crc32fast::hash(body).to_le_bytes()].concat();
     read(bytes) | read(&mended)
+}
+
+/// Gives a state to an engine, which may refuse its indexes.
+fn put(scene: Scene, state: &State) {
+    let mut engine = cpu::single(&Arc::new(scene)).expect("an engine on the CPU");
+    if let Err(error) = state.write(engine.as_mut()) {
+        one_line(&error.to_string(), "");
+    }
 }
 
 fn one_line(message: &str, name: &str) {
