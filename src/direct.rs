@@ -52,7 +52,10 @@ impl DirectSolver {
             let sign = if scene.plan.form == Some(PressureForm::Integral) { -1.0 } else { 1.0 };
             return Self::regular(rows, sign);
         }
-        Self::collocated(rows)
+        match scene.constants.singular {
+            true => Self::collocated(rows),
+            false => Self::regular(rows, 1.0),
+        }
     }
 
     /// The matrix `K` of the conservative form.

@@ -314,6 +314,7 @@ impl Scene {
         }
         data.extend(carried::initial(self, &volume));
         data.extend(sides::rows(self, &self.open));
+        data.push(sides::outlets(self));
         data.extend(self.known(&volume));
         let used = self.plan.buffers();
         data.retain(|(buffer, _)| used.contains(buffer));

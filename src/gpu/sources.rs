@@ -76,6 +76,7 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::AssembleIntegralLaplacian => once(stage!("assemble_integral_laplacian", Points)),
         Operation::AssembleIntegralGradient => once(stage!("assemble_integral_gradient", Points)),
         Operation::AssembleCollocated => once(stage!("assemble_collocated", Points)),
+        Operation::HoldOutlets => once(stage!("hold_outlets", Points)),
         Operation::FitVelocity(_) => once(stage!("fit_velocity", Points)),
         Operation::RemapDeparture => once(stage!("remap_departure", Points)),
         Operation::MovePoints => once(stage!("move_points", Points)),

@@ -25,6 +25,12 @@ pub(super) fn wall_flux(scene: &Scene, cells: &Cells) -> Vec<f64> {
     flux
 }
 
+/// Which points are those of outlets.
+pub(super) fn outlets(scene: &Scene) -> (Buffer, Data) {
+    let is_outlet = |point: usize| u32::from(point < scene.cloud.len() && scene.is_outlet(point));
+    (Buffer::Outlet, Data::Index((0..scene.padded()).map(is_outlet).collect()))
+}
+
 /// The rows of the points of slip sides and outlets.
 pub(super) fn rows(scene: &Scene, open: &[OpenPoint]) -> Vec<(Buffer, Data)> {
     let slots = scene.sizes.open_capacity;

@@ -62,6 +62,8 @@ pub enum Buffer {
     OpenCount,
     /// What is taken out of that velocity: the normal of a slip side, else zero; interleaved.
     OpenNormal,
+    /// 1 at points of outlets, 0 elsewhere. The collocated pressure alone.
+    Outlet,
     /// Outward unit normal at boundary points, zero inside; interleaved.
     Normal,
     /// Laplacian as a sum: the factor of `phi_j - phi_i` for every neighbour slot, 1/m^2, blocked.
@@ -70,7 +72,7 @@ pub enum Buffer {
     GradientRow,
     /// Collocated pressure matrix: the factor of `p_j - p_i` for every neighbour slot, 1/m^2, blocked.
     MatrixRow,
-    /// Collocated pressure matrix: what each row was multiplied by, 1 inside, 1/m at the boundary.
+    /// Collocated pressure matrix: what each row was multiplied by, 1 inside, 1/m at the boundary, 0 at outlets.
     RowScale,
     /// Diagonal of the pressure matrix: no unit (conservative, `sum_j w_ij`) or 1/m^2 (collocated, `-sum_j a_ij`); 1 in padding.
     Diagonal,
@@ -162,6 +164,7 @@ impl Buffer {
             Buffer::OpenRow => ("open_row", None),
             Buffer::OpenCount => ("open_count", None),
             Buffer::OpenNormal => ("open_normal", None),
+            Buffer::Outlet => ("outlet", None),
             Buffer::Normal => ("normal", None),
             Buffer::LaplacianRow => ("laplacian_row", None),
             Buffer::GradientRow => ("gradient_row", None),
@@ -219,6 +222,7 @@ impl Buffer {
             | Buffer::Surface
             | Buffer::OpenPoints
             | Buffer::OpenCount
+            | Buffer::Outlet
             | Buffer::DepartureNearest => Element::Index,
             _ => Element::Real,
         }

@@ -72,7 +72,7 @@ impl Operation {
                 Effect::Advection
             }
             FittedViscosity => Effect::Viscosity,
-            OpenSides(_) => Effect::Sides,
+            OpenSides(_) | HoldOutlets => Effect::Sides,
             KeepVelocity | ClearKick | Predict | Average | Gradient | Laplacian => Effect::Step,
         }
     }

@@ -66,6 +66,8 @@ pub enum Operation {
     AssembleIntegralGradient,
     /// Rows of the collocated pressure matrix: the Laplacian's inside, the normal derivative's at walls.
     AssembleCollocated,
+    /// Takes the rows of outlets out of it, where the pressure is 0.
+    HoldOutlets,
 
     /// Fits the velocity that moves the points.
     FitVelocity(Points),
@@ -176,6 +178,7 @@ impl Operation {
             Operation::AssembleIntegralLaplacian => "assemble_integral_laplacian",
             Operation::AssembleIntegralGradient => "assemble_integral_gradient",
             Operation::AssembleCollocated => "assemble_collocated",
+            Operation::HoldOutlets => "hold_outlets",
             Operation::FitVelocity(_) => "fit_velocity",
             Operation::RemapDeparture => "remap_departure",
             Operation::MovePoints => "move_points",
@@ -258,6 +261,7 @@ impl Operation {
             Operation::AssembleLaplacian | Operation::AssembleGradient => fits(standing),
             Operation::AssembleIntegralLaplacian | Operation::AssembleIntegralGradient => means,
             Operation::AssembleCollocated => with(sums(LaplacianRow), &[GradientRow, Normal]),
+            Operation::HoldOutlets => vec![Outlet],
             Operation::FitVelocity(points) => with(fits(points), &[plan.moving()]),
             Operation::RemapDeparture => {
                 let [around, around_count] = plan.around();
@@ -340,7 +344,7 @@ impl Operation {
             }
             Operation::AssembleLaplacian | Operation::AssembleIntegralLaplacian => vec![LaplacianRow],
             Operation::AssembleGradient | Operation::AssembleIntegralGradient => vec![GradientRow],
-            Operation::AssembleCollocated => vec![MatrixRow, RowScale, Diagonal],
+            Operation::AssembleCollocated | Operation::HoldOutlets => vec![MatrixRow, RowScale, Diagonal],
             Operation::FitVelocity(_) => vec![Coefficients],
             Operation::RemapDeparture
             | Operation::RemapForward

@@ -238,7 +238,7 @@ impl Plan {
         let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
         let reflects = splitting == Splitting::Reflection;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form() == PressureForm::Collocated);
-        let through_flow = case.flows_through();
+        let (through_flow, outlets) = (case.flows_through(), case.has_side(case::SideKind::Outlet));
         let standing = Points::Standing;
         let fits_faces =
             effects.pressure.as_ref().is_some_and(|pressure| pressure.divergence() == case::Divergence::Fit);
@@ -324,6 +324,9 @@ impl Plan {
                 PressureForm::Conservative => Divergence,
                 PressureForm::Collocated | PressureForm::Integral => {
                     setup.push(AssembleCollocated);
+                    if outlets {
+                        setup.push(HoldOutlets);
+                    }
                     CollocatedSource
                 }
             });
@@ -356,7 +359,7 @@ impl Plan {
             form: effects.pressure.as_ref().map(|pressure| pressure.form()),
             splitting,
             through_flow,
-            outlets: case.has_side(case::SideKind::Outlet),
+            outlets,
             carried,
             flows: true,
             motion: Motion::Fixed,

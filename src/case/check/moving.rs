@@ -2,7 +2,8 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Arrangement, Axes, Boundaries, Case, Fill, Motion, Operators, Pressure, PressureForm, Problem, Remap, Solver,
+    Arrangement, Axes, Boundaries, Case, Fill, Motion, Operators, Pressure, PressureForm, Problem, Remap, SideKind,
+    Solver,
 };
 use super::require;
 
@@ -69,6 +70,9 @@ fn check_flow(case: &Case) -> Result<(), Fault> {
     }
     let walls = &case.boundaries;
     let sides = [("left", &walls.left), ("right", &walls.right), ("bottom", &walls.bottom), ("top", &walls.top)];
+    if let Some((side, _)) = sides.iter().find(|(_, wall)| wall.kind != SideKind::Wall) {
+        return stray(&format!("boundaries.{side}.kind"), "must be \"wall\", along which fluid slips,");
+    }
     if let Some((side, _)) = sides.iter().find(|(_, wall)| **wall != Boundaries::default().left) {
         return stray(&format!("boundaries.{side}.velocity"), "must be [0, 0]");
     }

@@ -1,7 +1,7 @@
 //! Checks of the sides: what each kind takes and needs.
 
 use super::super::fault::Fault;
-use super::super::{Case, PressureForm, SideKind, SideProfile, Wall};
+use super::super::{Case, SideKind, SideProfile, Wall};
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     let [x, y] = case.domain.periodic.each();
@@ -27,18 +27,14 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
 
 /// What does not go with the kind of a side; `inward` is its normal into the domain.
 fn unfit(case: &Case, wall: &Wall, inward: [f64; 2]) -> Option<String> {
-    let form = case.effects.pressure.as_ref().map(|pressure| pressure.form());
     let moves = wall.velocity != [0.0, 0.0] || wall.profile != SideProfile::Uniform;
     let comes_in = wall.velocity[0] * inward[0] + wall.velocity[1] * inward[1] > 0.0;
     let reason = match wall.kind {
         SideKind::Slip | SideKind::Outlet if moves => {
             "takes its velocity from the fluid; leave out boundaries.*.velocity and boundaries.*.profile of this side"
         }
-        SideKind::Inlet | SideKind::Outlet if form.is_none() => {
+        SideKind::Inlet | SideKind::Outlet if case.effects.pressure.is_none() => {
             "needs the pressure to bring the fluid through, and the table effects.pressure is absent"
-        }
-        _ if form == Some(PressureForm::Collocated) => {
-            "belongs to the conservative form, and effects.pressure.form is \"collocated\""
         }
         SideKind::Inlet if !comes_in => "needs boundaries.*.velocity of this side, pointing into the domain",
         SideKind::Inlet if !case.has_side(SideKind::Outlet) => {

@@ -122,6 +122,20 @@ impl<T: Real> CpuEngine<T> {
                         integral::assemble_integral_gradient(self.means(space)?, &mut row));
                 });
             }
+            Operation::HoldOutlets => {
+                with_taken!(
+                    self.fields,
+                    [row = Buffer::MatrixRow, scale = Buffer::RowScale, diagonal = Buffer::Diagonal],
+                    collocated::hold_outlets(
+                        self.fields.index(Buffer::Outlet)?,
+                        [sizes.interior, sizes.points],
+                        sizes.capacity,
+                        &mut row,
+                        &mut scale,
+                        &mut diagonal,
+                    )
+                );
+            }
             _ => {
                 with_taken!(
                     self.fields,

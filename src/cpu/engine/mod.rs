@@ -108,7 +108,8 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::AssembleGradient
             | Operation::AssembleIntegralLaplacian
             | Operation::AssembleIntegralGradient
-            | Operation::AssembleCollocated => self.geometry(operation),
+            | Operation::AssembleCollocated
+            | Operation::HoldOutlets => self.geometry(operation),
             Operation::FitVelocity(_)
             | Operation::RemapDeparture
             | Operation::MovePoints

@@ -1,6 +1,7 @@
 //! The collocated form of the pressure equation: the paper's (3.2), one row a point.
 //!
-//! Continuous: `lap p = (rho / dt) div u*` inside, `n . grad p = rho n . (u*_b - u_wall) / dt` on walls.
+//! Continuous: `lap p = (rho / dt) div u*` inside, `n . grad p = rho n . (u*_b - u_wall) / dt` on walls, slip sides and inlets,
+//! `p = 0` at outlets.
 //! Discrete:   `sum_j m_ij (p_j - p_i) = b_i`, `m` the row of the Laplacian inside (2.6), that of the normal derivative at
 //! walls, multiplied so that it is as large as the Laplacian's row there.
 //! The paper prints `-(rho / dt^2) grad u*` as the source: its units do not fit; the power of dt and the sign are
@@ -77,6 +78,21 @@ pub fn assemble<T: Real>(
             }
         }
     });
+}
+
+/// Empties the rows of outlets: `p = 0` there, whatever their source, which is scaled by 0.
+pub fn hold_outlets<T: Real>(
+    outlet: &[u32],
+    [interior, points]: [usize; 2],
+    slots: usize,
+    row: &mut [T],
+    scale: &mut [T],
+    diagonal: &mut [T],
+) {
+    for i in (interior..points).filter(|&i| outlet[i] != 0) {
+        (0..slots).for_each(|slot| row[blocks::at(i, slot, slots)] = T::zero());
+        (scale[i], diagonal[i]) = (T::zero(), T::from_f64(1.0));
+    }
 }
 
 /// The right side: `(rho / dt) div u*` inside, the scaled normal derivative at walls.

@@ -84,6 +84,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::AssembleLaplacian,
         Operation::AssembleGradient,
         Operation::AssembleCollocated,
+        Operation::HoldOutlets,
         Operation::RemapDeparture,
         Operation::MovePoints,
         Operation::RemapForward,
