@@ -1,10 +1,11 @@
-//! What points that move leave behind: motion.csv, one row a report, and frames/, the whole state at regular times.
+//! What points that move leave behind: motion.csv, one row a report, lost.csv, and frames/, the whole state at regular times.
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::file::finite;
+use super::lost::LostWriter;
 use super::{OutputError, RunFolder, points};
 use crate::case::Case;
 use crate::motion::Row;
@@ -12,11 +13,12 @@ use crate::snapshot::Snapshot;
 
 const HEADER: &str = "step,time,kinetic_energy,potential_energy,nearest_least,nearest_mean,nearest_most,front,column,area,surface,lowered,lost";
 
-/// Appends rows to motion.csv and numbers the frames.
+/// Appends rows to motion.csv, lost points to lost.csv, and numbers the frames.
 #[derive(Debug)]
 pub struct MotionWriter {
     path: PathBuf,
     file: File,
+    lost: LostWriter,
     frames: PathBuf,
     kept: Vec<f64>,
 }
@@ -34,7 +36,8 @@ impl MotionWriter {
         if case.output.frame_every.is_some() {
             fs::create_dir_all(&frames).map_err(OutputError::io(&frames))?;
         }
-        Ok(Self { path, file, frames, kept: Vec::new() })
+        let lost = LostWriter::open(folder.lost())?;
+        Ok(Self { path, file, lost, frames, kept: Vec::new() })
     }
 
     /// Appends one row and flushes it.
@@ -51,7 +54,9 @@ impl MotionWriter {
         let reals: String = reals.iter().map(|value| format!(",{value:?}")).collect();
         let sensors: String = row.sensors.iter().map(|value| format!(",{value:?}")).collect();
         let line = format!("{step},{time:?}{reals},{surface},{lowered},{lost}{sensors}\n");
-        self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush());
+        written.map_err(OutputError::io(&self.path))?;
+        self.lost.append(row)
     }
 
     /// Writes a frame, `frames/0000.csv` the first, and its time into `frames/times.csv`.
@@ -100,6 +105,7 @@ pub fn read(path: &Path) -> Result<Vec<Row>, OutputError> {
                 surface: cells[10] as u64,
                 lowered: cells[11] as u64,
                 lost: cells[12] as u64,
+                outside: Vec::new(),
                 sensors: cells[fixed..].to_vec(),
             })
         })
