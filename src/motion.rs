@@ -1,5 +1,7 @@
 //! What is measured of points that move: how evenly they stand, where the fluid is, what energy it has, what is lost.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -30,8 +32,19 @@ pub struct Row {
     pub lowered: u64,
     /// Points that have left the domain.
     pub lost: u64,
+    /// Which these are, and where: not in `motion.csv`.
+    pub outside: Vec<Lost>,
     /// Pressure at each sensor, in the order of their names, Pa.
     pub sensors: Vec<f64>,
+}
+
+/// A point outside the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Lost {
+    /// Its place in the list of points, from 0: the row of `points.csv` and of every frame.
+    pub point: usize,
+    /// m
+    pub place: [f64; 2],
 }
 
 /// The fluid's points at one instant.
@@ -89,8 +102,30 @@ pub fn measure(scene: &Scene, state: &State, step: u64, time: f64, start: &mut f
         surface: state.surface.iter().map(|&flag| u64::from(flag)).sum(),
         lowered: state.rung.iter().filter(|&&rung| rung != 0).count() as u64,
         lost: (state.position.len() - inside.len()) as u64,
+        outside: outside(scene, state.position),
         sensors: scene.case.output.sensors.values().map(|sensor| pressure_at(scene, state, sensor.at.into())).collect(),
     }
+}
+
+/// Every point outside the domain, in their order.
+fn outside(scene: &Scene, position: &[DVec2]) -> Vec<Lost> {
+    let all = position.iter().enumerate().filter(|(_, place)| lost(scene, **place));
+    all.map(|(point, place)| Lost { point, place: place.to_array() }).collect()
+}
+
+/// A line about the points that were lost over these rows, each when it was first seen outside; none where none was.
+pub fn losses(rows: &[Row]) -> Option<String> {
+    let mut seen = BTreeSet::new();
+    let each = rows.iter().flat_map(|row| row.outside.iter().map(move |lost| (row.step, lost.point)));
+    let new: Vec<(u64, usize)> = each.filter(|&(_, point)| seen.insert(point)).collect();
+    let (step, point) = new.first()?;
+    let first = format!("point {point}, seen outside after step {step}");
+    Some(match new.len() {
+        1 => format!("a point left the domain: {first}; lost.csv has its time and place"),
+        count => format!(
+            "{count} points left the domain, the first of them {first}; lost.csv has each with its time and place"
+        ),
+    })
 }
 
 /// True of a point outside the domain.
@@ -160,4 +195,23 @@ fn pressure_at(scene: &Scene, state: &State, place: DVec2) -> f64 {
         }
     }
     if weights > 0.0 { sum / weights } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lost_point_is_told_of_once() {
+        let row = |step: u64, points: &[usize]| {
+            let outside = points.iter().map(|&point| Lost { point, place: [-0.5, 2.0] }).collect();
+            Row { step, outside, ..Row::default() }
+        };
+        assert_eq!(losses(&[row(0, &[]), row(1, &[])]), None);
+        let one = losses(&[row(0, &[]), row(5, &[7]), row(10, &[7])]);
+        let told = "a point left the domain: point 7, seen outside after step 5; lost.csv has its time and place";
+        assert_eq!(one.as_deref(), Some(told));
+        let three = losses(&[row(5, &[7]), row(10, &[3, 7, 9]), row(15, &[3])]).expect("a line");
+        assert!(three.starts_with("3 points left the domain, the first of them point 7, seen"), "{three}");
+    }
 }

@@ -189,6 +189,7 @@ fn summarise(
     if outcome.fallbacks > 0 {
         warnings.push(format!("{} pressure solves stalled and were solved directly", outcome.fallbacks));
     }
+    warnings.extend(motion::losses(history));
     Ok(Summary {
         case_path: case_path.to_owned(),
         case: scene.case.clone(),

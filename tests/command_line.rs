@@ -100,7 +100,7 @@ fn runs_that_cannot_be_compared_exit_with_2_and_one_line_and_leave_no_pictures()
     let folder = empty_folder();
     let dam = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/dam_break_shifted.toml");
     let still = ["--set", "cloud.spacing=0.125", "--set", "time.end=0.1", "--set", "method.radius=2.8"];
-    let moving = ["--engine", "cpu", "--set", "time.end=0.01", "--set", "output.pictures=false"];
+    let moving = ["--engine", "cpu", "--set", "time.end=0.01", "--set", "output.pictures=false", "--set", "expect={}"];
     let run = |case: &str, out: &str, rest: &[&str]| {
         let code = stillpoint(folder.path(), &[&["run", case, "--out", out, "--quiet"], rest].concat()).status.code();
         assert!(matches!(code, Some(0 | 1)), "{case}: {code:?}");
@@ -122,4 +122,29 @@ fn runs_that_cannot_be_compared_exit_with_2_and_one_line_and_leave_no_pictures()
         assert!(message.starts_with(expected), "{second} says {message:?}, not {expected:?}");
         assert!(!folder.path().join("compared").exists());
     }
+}
+
+#[test]
+fn lost_points_have_a_file_and_a_line() {
+    let folder = empty_folder();
+    let tank = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/hydrostatic_mps.toml");
+    let run = |out: &str, rest: &[&str]| {
+        let short =
+            ["--engine", "cpu", "--set", "time.end=0.002", "--set", "output.pictures=false", "--set", "expect={}"];
+        let output = stillpoint(folder.path(), &[&["run", tank, "--out", out], &short[..], rest].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    assert!(!run("rest", &[]).contains("left the domain") && !folder.path().join("rest/lost.csv").exists());
+    let told =
+        run("turn", &["--set", "initial.rotation=48", "--set", "time.end=0.001", "--set", "output.report_every=1"]);
+    let table = fs::read_to_string(folder.path().join("turn/lost.csv")).expect("lost.csv");
+    let mut rows = table.lines();
+    assert_eq!(rows.next(), Some("point,step,time,x,y"));
+    let first = rows.next().and_then(|row| row.split_once(',')).expect("a row").0;
+    let line = format!(
+        "{} points left the domain, the first of them point {first}, seen outside after step 1",
+        1 + rows.count()
+    );
+    assert!(told.contains(&line), "{told:?} lacks {line:?}");
 }

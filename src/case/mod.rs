@@ -578,7 +578,7 @@ pub struct Expectation {
     pub duration: Option<f64>,
     /// `front`: added to the run's time, in units of `duration`; 0 where absent.
     pub delay: Option<f64>,
-    /// `sensor`, `noise`, `area`, `energy` and `period`: what comes before is left out, s; 0 where absent.
+    /// `front`, `sensor`, `noise`, `area`, `energy` and `period`: what comes before is left out, s; 0 where absent.
     pub after: Option<f64>,
     /// `force`: the name of an obstacle; `flux`: that or a side.
     pub on: Option<String>,

@@ -48,8 +48,8 @@ fn front(row: &Expectation, rows: &[Row], profile: &Profile) -> Found {
     let (length, duration) = (row.length.unwrap_or(1.0), row.duration.unwrap_or(1.0));
     let nothing = Found { position: None, value: f64::NAN, reference: 1.0, difference: f64::NAN };
     let published = profile.coordinate.iter().zip(&profile.value);
-    let each = published.map(|(&at, &reference)| {
-        let time = (at - row.delay.unwrap_or(0.0)) * duration;
+    let timed = published.map(|(&at, &reference)| ((at - row.delay.unwrap_or(0.0)) * duration, reference));
+    let each = timed.filter(|(time, _)| row.after.is_none_or(|after| *time >= after)).map(|(time, reference)| {
         let value = front_at(rows, time) / length;
         Found { position: Some(time), value, reference, difference: (value - reference).abs() }
     });
@@ -119,7 +119,7 @@ pub(super) fn quantity(row: &Expectation) -> String {
         Measure::Area => format!("area of the fluid{after}"),
         Measure::Energy => format!("energy of the fluid{after}"),
         Measure::Period => format!("period of the height at the left wall{after}"),
-        _ => "front of the fluid".to_owned(),
+        _ => format!("front of the fluid{after}"),
     }
 }
 
@@ -169,6 +169,11 @@ mod tests {
         assert!(!late.pass && (late.error.unwrap() - 0.4 / 2.4).abs() < 1e-12, "{late:?}");
         assert!((late.position.unwrap() - 0.2).abs() < 1e-12 && (late.value.unwrap() - 2.8).abs() < 1e-12);
         assert_eq!(late.quantity, "front of the fluid");
+        // From a time on: without the first published value, which is the farthest off.
+        let rest = result(&(front("-0.3") + "\nafter = 0.25"), &rows()).unwrap();
+        assert!(!rest.pass && (rest.error.unwrap() - 0.4 / 2.8).abs() < 1e-12, "{rest:?}");
+        assert_eq!(rest.quantity, "front of the fluid after 0.25 s");
+        assert_eq!(result(&(front("0.2") + "\nafter = 0.9"), &rows()).unwrap().value, None);
         let short = result(&front("0.2"), &rows()[..4]).unwrap();
         assert_eq!((short.pass, short.value, short.error), (false, None, None));
         assert!(!result(&front("0.2"), &[]).unwrap().pass);

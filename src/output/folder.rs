@@ -8,12 +8,13 @@ use super::OutputError;
 use super::file::PART;
 
 /// Files that a run writes; overwriting a folder removes these alone.
-const FILES: [&str; 17] = [
+const FILES: [&str; 18] = [
     "checkpoint",
     "points.csv",
     "points.vtu",
     "diagnostics.csv",
     "motion.csv",
+    "lost.csv",
     "summary.json",
     "pressure.png",
     "speed.png",
@@ -139,6 +140,11 @@ impl RunFolder {
     /// Of points that move: a row a report.
     pub fn motion(&self) -> PathBuf {
         self.path.join("motion.csv")
+    }
+
+    /// Of points that move: those that left the domain.
+    pub fn lost(&self) -> PathBuf {
+        self.path.join("lost.csv")
     }
 
     /// Of points that move: the folder of the frames.

@@ -5,6 +5,7 @@ mod diagnostics;
 mod error;
 pub(crate) mod file;
 mod folder;
+mod lost;
 pub mod motion;
 pub mod picture;
 pub mod points;

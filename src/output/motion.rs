@@ -1,4 +1,4 @@
-//! What points that move leave behind: motion.csv, one row a report, and frames/, the whole state at regular times.
+//! What points that move leave behind: motion.csv, one row a report, lost.csv, and frames/, the whole state at regular times.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::file::{finite, sync, write_whole};
 use super::folder::remove;
+use super::lost::LostWriter;
 use super::{OutputError, RunFolder, points, rows};
 use crate::case::Case;
 use crate::motion::Row;
@@ -13,11 +14,12 @@ use crate::snapshot::Snapshot;
 
 const HEADER: &str = "step,time,kinetic_energy,potential_energy,nearest_least,nearest_mean,nearest_most,front,column,area,surface,lowered,lost";
 
-/// Appends rows to motion.csv and numbers the frames.
+/// Appends rows to motion.csv, lost points to lost.csv, and numbers the frames.
 #[derive(Debug)]
 pub struct MotionWriter {
     path: PathBuf,
     file: File,
+    lost: LostWriter,
     frames: PathBuf,
     /// Times of the frames, s.
     kept: Vec<f64>,
@@ -37,7 +39,7 @@ impl MotionWriter {
         if case.output.frame_every.is_some() {
             fs::create_dir_all(&frames).map_err(OutputError::io(&frames))?;
         }
-        Ok(Self { path, file, frames, kept: Vec::new(), synced: 0 })
+        Ok(Self { path, file, lost: LostWriter::new(folder.lost()), frames, kept: Vec::new(), synced: 0 })
     }
 
     /// Goes on with the files of a run from its state after `step`, when it had kept so many frames: what is behind them is
@@ -48,7 +50,8 @@ impl MotionWriter {
     pub fn resume(folder: &RunFolder, case: &Case, step: u64, count: u32) -> Result<(Self, Vec<Row>), OutputError> {
         let (path, frames) = (folder.motion(), folder.frames());
         rows::cut(&path, &header(case), "motion", step)?;
-        let rows = read(&path)?;
+        let mut rows = read(&path)?;
+        let lost = LostWriter::resume(folder.lost(), &mut rows)?;
         let mut kept = Frames::open(&frames)?.times;
         let (found, count) = (kept.len(), count as usize);
         kept.truncate(count);
@@ -61,7 +64,7 @@ impl MotionWriter {
             remove(&frame(&frames, number))?;
         }
         let file = OpenOptions::new().append(true).open(&path).map_err(OutputError::io(&path))?;
-        let writer = Self { path, file, frames, kept, synced: count };
+        let writer = Self { path, file, lost, frames, kept, synced: count };
         if case.output.frame_every.is_some() {
             writer.write_times()?;
         }
@@ -74,6 +77,7 @@ impl MotionWriter {
     /// Errors of the file system.
     pub fn sync(&mut self) -> Result<(), OutputError> {
         self.file.sync_data().map_err(OutputError::io(&self.path))?;
+        self.lost.sync()?;
         if self.synced < self.kept.len() {
             (self.synced..self.kept.len()).try_for_each(|number| sync(&frame(&self.frames, number)))?;
             sync(&times(&self.frames))?;
@@ -99,7 +103,9 @@ impl MotionWriter {
         let reals: String = reals.iter().map(|value| format!(",{value:?}")).collect();
         let sensors: String = row.sensors.iter().map(|value| format!(",{value:?}")).collect();
         let line = format!("{step},{time:?}{reals},{surface},{lowered},{lost}{sensors}\n");
-        self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush());
+        written.map_err(OutputError::io(&self.path))?;
+        self.lost.append(row)
     }
 
     /// Writes a frame, `frames/0000.csv` the first, and its time into `frames/times.csv`.
@@ -158,6 +164,7 @@ pub fn read(path: &Path) -> Result<Vec<Row>, OutputError> {
                 surface: cells[10] as u64,
                 lowered: cells[11] as u64,
                 lost: cells[12] as u64,
+                outside: Vec::new(),
                 sensors: cells[fixed..].to_vec(),
             })
         })

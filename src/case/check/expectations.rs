@@ -152,7 +152,7 @@ fn check_motion(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) ->
         ("length", row.length.is_some(), &[Front]),
         ("duration", row.duration.is_some(), &[Front]),
         ("delay", row.delay.is_some(), &[Front]),
-        ("after", row.after.is_some(), &[Sensor, Noise, Area, Energy, Period]),
+        ("after", row.after.is_some(), &[Front, Sensor, Noise, Area, Energy, Period]),
     ];
     let flow: [(&str, bool, &[Measure]); 5] = [
         ("component", row.component.is_some(), &[]),
@@ -186,7 +186,8 @@ fn check_motion(case: &Case, row: &Expectation, key: &dyn Fn(&str) -> String) ->
             needed(row.length.is_some(), "length")?;
             needed(row.duration.is_some(), "duration")?;
             positive(row.length, "length")?;
-            positive(row.duration, "duration")
+            positive(row.duration, "duration")?;
+            check_after(case, row, key)
         }
         Sensor | Noise => {
             needed(row.sensor.is_some(), "sensor")?;
