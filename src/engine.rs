@@ -123,6 +123,15 @@ pub enum EngineError {
     Index { buffer: Buffer, entry: usize, index: u32 },
     #[error("pressure: {0}")]
     Direct(String),
+    #[error("viscosity: its solve came no further than a residual of {residual:e} m/s in {iterations} iterations")]
+    Viscosity { residual: f64, iterations: u32 },
+}
+
+impl EngineError {
+    /// The solve of implicit viscosity stands still.
+    pub(crate) fn viscosity(solve: &SolveInfo) -> Self {
+        Self::Viscosity { residual: solve.last_residual, iterations: solve.iterations }
+    }
 }
 
 /// Seconds spent in each operation.
@@ -146,6 +155,11 @@ pub trait Engine {
 
     /// Of the last pressure solve.
     fn solve_info(&self) -> SolveInfo;
+
+    /// Of the last solve of implicit viscosity; `None` without.
+    fn viscous_solve_info(&self) -> Option<SolveInfo> {
+        None
+    }
 
     /// Seconds spent in each operation since the engine was made; empty where the engine takes no times.
     fn seconds(&self) -> Spent {

@@ -93,7 +93,8 @@ pub fn resume(
 /// Names of what the diagnostics have columns of their own for.
 fn probes(scene: &Scene) -> Result<Vec<String>, RunError> {
     let probes = Probe::of_case(&scene.case, &scene.cloud.position).map_err(SimulationError::from)?;
-    Ok(probes.into_iter().map(|probe| probe.name).collect())
+    let solve = scene.case.implicit_viscosity().then(|| "viscous_iterations".to_owned());
+    Ok(solve.into_iter().chain(probes.into_iter().map(|probe| probe.name)).collect())
 }
 
 fn finish(mut writer: Recorder<'_>, outcome: Outcome, prepared: Instant) -> Result<Report, RunError> {

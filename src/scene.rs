@@ -81,6 +81,8 @@ pub struct Constants {
     /// Volume change left in a step, `|div u| dt`, at which a pressure solve is done.
     pub tolerance: f64,
     pub max_iterations: u32,
+    /// What the solve of implicit viscosity leaves in a step of its velocities, as a way, m.
+    pub viscous_tolerance: f64,
     /// Rounding units of the diagonal's product below which no pressure residual falls.
     pub floor: f64,
     /// Whether the pressure is found but for a constant: not where fluid leaves at pressure 0.
@@ -177,6 +179,7 @@ impl Scene {
             diffusion_limit: carried::limit(case, cells.as_ref()),
             tolerance: case.tolerance(),
             max_iterations: pressure.max_iterations,
+            viscous_tolerance: case.viscous_tolerance() * cloud.spacing,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             singular: !plan.outlets && !plan.moves(),
             shift: if plan.outlets || plan.moves() {
@@ -257,6 +260,13 @@ impl Scene {
         closed * self.constants.gravity
     }
 
+    /// Part of the mean pressure's kick that the source of the pressure sees after implicit viscosity, `1 / (1 + 8 h nu / l0^2)`;
+    /// `h` in s.
+    pub fn seen_share(&self, kick: f64) -> f64 {
+        let area = self.cloud.size.x * self.cloud.size.y / self.sizes.points as f64;
+        1.0 / (1.0 + 8.0 * kick * self.constants.viscosity / area)
+    }
+
     /// What an error in density weighs in the source of the pressure, `relaxation rho / dt^2`, Pa/m^2; `dt` in s.
     pub fn stiffness(&self, dt: f64) -> f64 {
         self.constants.relaxation * self.constants.density / (dt * dt)
@@ -298,7 +308,7 @@ impl Scene {
             (Buffer::Normal, self.vectors(&normal, DVec2::ZERO)),
             (Buffer::Volume, self.scalars(&volume, 1.0)),
         ];
-        for buffer in [Buffer::Velocity, Buffer::Projected, Buffer::Reflected, Buffer::Reported] {
+        for buffer in [Buffer::Velocity, Buffer::Middle, Buffer::Projected, Buffer::Reflected, Buffer::Reported] {
             data.push((buffer, self.vectors(&velocity, DVec2::ZERO)));
         }
         if let Some(cells) = &self.cells {
@@ -312,6 +322,10 @@ impl Scene {
                 data.push((Buffer::WallFlux, self.scalars(&sides::wall_flux(self, cells), 0.0)));
             }
         }
+        // That of a fluid at rest: where the mean pressure begins.
+        let weight = self.constants.density * self.balanced_gravity();
+        let hydrostatic: Vec<f64> = cloud.position.iter().map(|place| weight.dot(*place)).collect();
+        data.push((Buffer::MeanPressure, self.scalars(&hydrostatic, 0.0)));
         data.extend(carried::initial(self, &volume));
         data.extend(sides::rows(self, &self.open));
         data.push(sides::outlets(self));
@@ -355,6 +369,8 @@ impl Scene {
         let length = self.padded() * slots;
         let (mut neighbour, mut weight) = (vec![0; length], vec![0.0; length]);
         let (mut count, mut diagonal) = (vec![0; self.padded()], vec![1.0; self.padded()]);
+        let sum: Vec<f64> =
+            (0..self.sizes.points).map(|point| cells.faces(point).map(|(_, face)| face).sum()).collect();
         let at = |point: usize, slot: usize| blocks::at(point, slot, slots);
         for point in 0..self.padded() {
             let own = point.min(self.sizes.points - 1);
@@ -377,6 +393,7 @@ impl Scene {
             (Buffer::FaceWeight, Data::Real(weight)),
             (Buffer::FaceCount, Data::Index(count)),
             (Buffer::Diagonal, Data::Real(diagonal)),
+            (Buffer::FaceSum, self.scalars(&sum, 0.0)),
         ]
     }
 

@@ -1,4 +1,4 @@
-// The state of a batch of steps: what the host set going, what froze it, and where a pressure solve stands.
+// The state of a batch of steps: what the host set going, what froze it, and where a solve stands.
 //
 // Every dispatch over points or cells takes its number of workgroups from `dispatches`; zeroed, it does nothing. A solve
 // goes back and forth between two phases, recomputing the residual and iterating, and only the one it is in has
@@ -23,6 +23,21 @@ fn open_phase(phase: u32) {
     let none = vec2<u32>(0u, 0u);
     set_extent(EXTENT_CHECK, select(none, all, phase == PHASE_CHECKING));
     set_extent(EXTENT_ITERATE, select(none, all, phase == PHASE_ITERATING));
+}
+
+// A solve of this equation begins.
+fn begin(equation: u32) {
+    atomicStore(&control[EQUATION], equation);
+    atomicStore(&control[OUTCOME + equation], OUTCOME_CONVERGED);
+    atomicStore(&control[ITERATIONS + equation], 0u);
+    atomicStore(&control[STARTS], 0u);
+    enter(PHASE_CHECKING);
+}
+
+// The equation that is being solved: 0 the pressure's, 1 that of viscosity. Its words, scalars and times stand so many behind
+// those of the pressure.
+fn equation() -> u32 {
+    return atomicLoad(&control[EQUATION]);
 }
 
 fn enter(phase: u32) {

@@ -12,25 +12,32 @@ fn rms(square: real) -> real {
 }
 
 fn reached(square: real, scale: real) -> bool {
-    return rms(square) <= max(clock[CLOCK_STOP], STOP_FLOOR * EPSILON * rms(scale));
+    let viscous = equation() == EQUATION_VISCOSITY;
+    let floor = select(STOP_FLOOR, VISCOUS_FLOOR, viscous);
+    return rms(square) <= max(clock[CLOCK_STOP + equation()], floor * EPSILON * rms(scale));
+}
+
+fn most_iterations() -> u32 {
+    return select(MAX_ITERATIONS, VISCOUS_ITERATIONS_ALLOWED, equation() == EQUATION_VISCOSITY);
 }
 
 // A residual recomputed from the solution: the first one, and one after every stretch of iterations.
 fn recomputed(square: real, scale: real) {
+    let behind = equation();
     let now = rms(square);
     let starts = atomicLoad(&control[STARTS]);
-    let iterations = atomicLoad(&control[ITERATIONS]);
+    let iterations = atomicLoad(&control[ITERATIONS + behind]);
     if starts == 0u {
-        scalars[FIRST_RESIDUAL] = now;
+        scalars[FIRST_RESIDUAL + behind] = now;
     }
-    scalars[LAST_RESIDUAL] = now;
+    scalars[LAST_RESIDUAL + behind] = now;
     if !finite(now) {
-        atomicStore(&control[OUTCOME], OUTCOME_BROKE_DOWN);
+        atomicStore(&control[OUTCOME + behind], OUTCOME_BROKE_DOWN);
     } else if reached(square, scale) {
-        atomicStore(&control[OUTCOME], OUTCOME_CONVERGED);
-    } else if starts > STOP_RESTARTS || iterations >= MAX_ITERATIONS {
-        atomicStore(&control[OUTCOME], OUTCOME_STAGNATED);
-    } else if atomicLoad(&control[OUTCOME]) == OUTCOME_CONVERGED {
+        atomicStore(&control[OUTCOME + behind], OUTCOME_CONVERGED);
+    } else if starts > STOP_RESTARTS || iterations >= most_iterations() {
+        atomicStore(&control[OUTCOME + behind], OUTCOME_STAGNATED);
+    } else if atomicLoad(&control[OUTCOME + behind]) == OUTCOME_CONVERGED {
         atomicStore(&control[STARTS], starts + 1u);
         scalars[BEST] = now;
         atomicStore(&control[SINCE_BEST], 0u);
@@ -38,17 +45,18 @@ fn recomputed(square: real, scale: real) {
         return;
     }
     enter(PHASE_IDLE);
-    atomicAdd(&control[TOTAL_ITERATIONS], iterations);
-    atomicMax(&control[MOST_ITERATIONS], iterations);
-    atomicMax(&control[MOST_STARTS], starts);
-    if atomicLoad(&control[OUTCOME]) != OUTCOME_CONVERGED {
+    atomicAdd(&control[TOTAL_ITERATIONS + behind], iterations);
+    atomicMax(&control[MOST_ITERATIONS + behind], iterations);
+    atomicMax(&control[MOST_STARTS + behind], starts);
+    if atomicLoad(&control[OUTCOME + behind]) != OUTCOME_CONVERGED {
         halt(HALTED_FOR_DIRECT_SOLVE);
     }
 }
 
 // A residual from the recurrence, after one more iteration; true to go on.
 fn iterated(square: real, scale: real) -> bool {
-    let iterations = atomicAdd(&control[ITERATIONS], 1u) + 1u;
+    let behind = equation();
+    let iterations = atomicAdd(&control[ITERATIONS + behind], 1u) + 1u;
     let now = rms(square);
     var since_best = 0u;
     if now < real(0.9) * scalars[BEST] {
@@ -58,10 +66,10 @@ fn iterated(square: real, scale: real) -> bool {
     }
     atomicStore(&control[SINCE_BEST], since_best);
     if !finite(now) {
-        atomicStore(&control[OUTCOME], OUTCOME_BROKE_DOWN);
+        atomicStore(&control[OUTCOME + behind], OUTCOME_BROKE_DOWN);
     } else if since_best >= STOP_PATIENCE {
-        atomicStore(&control[OUTCOME], OUTCOME_STAGNATED);
-    } else if !reached(square, scale) && iterations < MAX_ITERATIONS {
+        atomicStore(&control[OUTCOME + behind], OUTCOME_STAGNATED);
+    } else if !reached(square, scale) && iterations < most_iterations() {
         return true;
     }
     enter(PHASE_CHECKING);
@@ -69,6 +77,6 @@ fn iterated(square: real, scale: real) -> bool {
 }
 
 fn break_down() {
-    atomicStore(&control[OUTCOME], OUTCOME_BROKE_DOWN);
+    atomicStore(&control[OUTCOME + equation()], OUTCOME_BROKE_DOWN);
     enter(PHASE_CHECKING);
 }

@@ -73,6 +73,8 @@ impl Pressure {
 
 /// Volume change left in a step by a pressure solve, as far as [`COARSE`] spacings to the shorter side.
 const DEFAULT_TOLERANCE: f64 = 1e-6;
+/// Way in a step over the spacing that the solve of implicit viscosity leaves.
+const DEFAULT_VISCOUS_TOLERANCE: f64 = 1e-6;
 /// Beyond so many spacings the default falls with the square of the spacing, as the step's square does.
 const COARSE: f64 = 64.0;
 
@@ -99,6 +101,12 @@ impl Case {
         self.effects.pressure.as_ref().and_then(|pressure| pressure.tolerance).unwrap_or(default)
     }
 
+    /// Way in a step, in spacings (rms over the points), at which the solve of implicit viscosity is done.
+    pub fn viscous_tolerance(&self) -> f64 {
+        let given = self.effects.viscosity.as_ref().and_then(|viscosity| viscosity.tolerance);
+        given.unwrap_or(DEFAULT_VISCOUS_TOLERANCE)
+    }
+
     /// Writes the defaults that apply into the keys left open, so that a summary shows what was run.
     pub(super) fn settle_defaults(&mut self) {
         let cloud = &mut self.cloud;
@@ -112,6 +120,11 @@ impl Case {
             cloud.minimum_distance = Some(cloud.minimum_distance());
         }
         self.method.radius = Some(self.method.radius());
+        let implicit = self.implicit_viscosity();
+        let tolerance = self.viscous_tolerance();
+        if let Some(viscosity) = self.effects.viscosity.as_mut().filter(|_| implicit) {
+            viscosity.tolerance = Some(tolerance);
+        }
         let tolerance = self.tolerance();
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.tolerance = Some(tolerance);

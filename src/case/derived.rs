@@ -1,6 +1,6 @@
 //! What follows from a case as a whole.
 
-use super::{Case, Effects, SideKind, SideName, Solution};
+use super::{Case, Effects, Scheme, SideKind, SideName, Solution};
 
 impl SideName {
     pub fn word(self) -> &'static str {
@@ -19,6 +19,11 @@ impl Case {
         let Effects { viscosity, pressure, advection, gravity, heat: _, buoyancy, tracers: _ } = &self.effects;
         let pushed = viscosity.is_some() || pressure.is_some() || gravity.is_some() || buoyancy.is_some();
         pushed || (advection.is_some() && !self.is_solved_by(Solution::Rotation))
+    }
+
+    /// True where the velocity under viscosity is solved for.
+    pub fn implicit_viscosity(&self) -> bool {
+        self.effects.viscosity.as_ref().is_some_and(|viscosity| viscosity.scheme == Scheme::Implicit)
     }
 
     /// True of the case that asks for this exact solution.

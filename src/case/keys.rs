@@ -50,6 +50,8 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
     ("method.weight", r#""none", "quadratic" or "smooth""#),
     ("effects.viscosity.kinematic", "a number above 0, m^2/s (for none, leave out the table effects.viscosity)"),
+    ("effects.viscosity.scheme", r#""explicit" or "implicit""#),
+    ("effects.viscosity.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.form", r#""conservative", "collocated" or "integral""#),
     ("effects.pressure.divergence", r#""faces" or "fit""#),
     ("effects.pressure.gradient", r#""fit" or "adjoint""#),
@@ -220,7 +222,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 18] = [
+        let keys: [(&str, &[&str]); 19] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
@@ -237,6 +239,7 @@ mod tests {
             ("effects.tracers.shape", words::<Shape>()),
             ("boundaries.any.kind", words::<SideKind>()),
             ("boundaries.any.profile", words::<SideProfile>()),
+            ("effects.viscosity.scheme", words::<Scheme>()),
             ("expect.any.measure", words::<Measure>()),
             ("expect.any.side", words::<SideName>()),
         ];

@@ -262,6 +262,21 @@ pub struct Effects {
 pub struct Viscosity {
     /// Kinematic viscosity, m^2/s.
     pub kinematic: f64,
+    #[serde(default)]
+    pub scheme: Scheme,
+    /// `implicit` alone: what its solve leaves of a velocity, as a way in a step over the spacing (rms over the points).
+    pub tolerance: Option<f64>,
+}
+
+/// When in a step the viscous force is taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Of velocities at hand: steps have a limit.
+    #[default]
+    Explicit,
+    /// Of the velocity that is looked for: a solve in every step, and no limit.
+    Implicit,
 }
 
 /// Incompressibility: `div u = 0`, held by the pressure.

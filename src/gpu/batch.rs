@@ -15,7 +15,7 @@ use super::program::{Budget, Program};
 use super::timer::{Marks, Timer};
 use crate::engine::{EngineError, Outcome, SolveInfo, Spent};
 use crate::scene::Scene;
-use crate::step::{Buffer, Operation};
+use crate::step::{Buffer, Equation, Operation};
 
 /// A submission is made longer below the first of these times and shorter above the second: long enough to keep the GPU
 /// busy, short enough that no watchdog takes it for hung.
@@ -48,6 +48,17 @@ impl Report {
         self.words[word as usize]
     }
 
+    /// The word of an equation: that of viscosity stands behind the pressure's.
+    pub fn word_of(&self, word: Word, equation: Equation) -> u32 {
+        self.words[word as usize + equation as usize]
+    }
+
+    /// What is being solved, or was last.
+    pub fn equation(&self) -> Equation {
+        let number = self.word(Word::Equation) as usize;
+        Equation::ALL.get(number).copied().unwrap_or(Equation::Pressure)
+    }
+
     pub fn scalar(&self, scalar: Scalar) -> f64 {
         self.scalars[scalar as usize]
     }
@@ -67,12 +78,14 @@ impl Report {
         (&self.words, &self.scalars)
     }
 
-    pub fn solve_info(&self) -> SolveInfo {
-        let outcome = self.word(Word::Outcome);
+    /// Of the last solve of an equation.
+    pub fn solve_info(&self, equation: Equation) -> SolveInfo {
+        let outcome = self.word_of(Word::Outcome, equation);
+        let scalar = |scalar: Scalar| self.scalars[scalar as usize + equation as usize];
         SolveInfo {
-            iterations: self.word(Word::Iterations),
-            first_residual: self.scalar(Scalar::FirstResidual),
-            last_residual: self.scalar(Scalar::LastResidual),
+            iterations: self.word_of(Word::Iterations, equation),
+            first_residual: scalar(Scalar::FirstResidual),
+            last_residual: scalar(Scalar::LastResidual),
             outcome: match Ended::ALL.get(outcome as usize) {
                 Some(Ended::BrokeDown) => Outcome::BrokeDown,
                 Some(Ended::Stagnated) => Outcome::Stagnated,
@@ -86,25 +99,26 @@ impl Report {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
     pub steps: u32,
-    pub budget: Budget,
+    /// Of the pressure's solve and of viscosity's.
+    pub budgets: [Budget; 2],
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { steps: 1, budget: Budget { iterations: 4 * ITERATIONS[0], rounds: 1 } }
+        Self { steps: 1, budgets: [Budget { iterations: 4 * ITERATIONS[0], rounds: 1 }; 2] }
     }
 }
 
 impl Pace {
     fn learn(&mut self, report: &Report, elapsed: Duration) {
         let [least, most] = ITERATIONS;
-        let budget = &mut self.budget;
-        match report.halted() {
-            Halted::InSolve => budget.iterations = (2 * budget.iterations).min(most),
-            _ => {
-                let used = report.word(Word::MostIterations);
+        for (equation, budget) in Equation::ALL.into_iter().zip(&mut self.budgets) {
+            if report.halted() != Halted::InSolve {
+                let used = report.word_of(Word::MostIterations, equation);
                 budget.iterations = (used + used / 2 + 8).clamp(least, most);
-                budget.rounds = report.word(Word::MostStarts).max(1);
+                budget.rounds = report.word_of(Word::MostStarts, equation).max(1);
+            } else if equation == report.equation() {
+                budget.iterations = (2 * budget.iterations).min(most);
             }
         }
         if elapsed < SHORT && report.halted() == Halted::Not {
@@ -153,7 +167,7 @@ impl Batch<'_> {
                 let begin = if step == 0 { *cursor } else { Cursor::default() };
                 for (k, &operation) in self.step.iter().enumerate().skip(begin.operation) {
                     let resumed = begin.resumed && k == begin.operation;
-                    count += self.program.encode(operation, resumed, pace.budget, &mut pass, dispatches);
+                    count += self.program.encode(operation, resumed, pace.budgets, &mut pass, dispatches);
                     marks.after(operation, &mut pass);
                 }
                 if self.counted {
@@ -173,7 +187,8 @@ impl Batch<'_> {
         let mut report = Report { words, scalars, spent: Spent::default() };
         pace.learn(&report, started.elapsed());
         marks.add_to(self.gpu, &mut report.spent)?;
-        let solve = self.step.iter().position(|&operation| solves(operation)).unwrap_or(0);
+        let halted_at = Some(report.equation());
+        let solve = self.step.iter().position(|operation| operation.solves() == halted_at).unwrap_or(0);
         *cursor = match report.halted() {
             Halted::InSolve => Cursor { operation: solve, resumed: true },
             Halted::ForDirectSolve => Cursor { operation: solve + 1, resumed: false },
@@ -219,10 +234,6 @@ impl Batch<'_> {
         }
         self.memory.upload_words(self.gpu, self.memory.own(Own::Dispatches), &table)?;
         // Halted, and what a batch learns from.
-        self.memory.upload_words(self.gpu, self.memory.own(Own::Control), &[Halted::Not as u32, 0, 0])
+        self.memory.upload_words(self.gpu, self.memory.own(Own::Control), &[Halted::Not as u32, 0, 0, 0, 0])
     }
-}
-
-fn solves(operation: Operation) -> bool {
-    matches!(operation, Operation::ConjugateGradient | Operation::Bicgstab | Operation::DirectSolve)
 }

@@ -15,7 +15,7 @@ use crate::engine::{
     Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, Outcome, SolveInfo, Spent,
 };
 use crate::scene::Scene;
-use crate::step::{Buffer, Operation};
+use crate::step::{Buffer, Equation, Operation};
 
 /// The plan's operations on one GPU.
 pub struct GpuEngine {
@@ -28,6 +28,7 @@ pub struct GpuEngine {
     pace: Pace,
     direct: Option<DirectSolver>,
     solve: SolveInfo,
+    viscous_solve: SolveInfo,
     fallbacks: u32,
     timer: Option<Timer>,
     spent: Spent,
@@ -43,9 +44,10 @@ impl GpuEngine {
         }
         let program = Program::new(&gpu, &scene, &memory)?;
         let step = scene.plan.drift.iter().chain(&scene.plan.kick).copied().collect();
-        let (pace, solve) = (Pace::default(), SolveInfo::default());
+        let (pace, solve, viscous_solve) = (Pace::default(), SolveInfo::default(), SolveInfo::default());
         let (timer, spent) = (Timer::new(&gpu)?, Spent::default());
-        Ok(Self { gpu, scene, memory, program, step, pace, direct: None, solve, fallbacks: 0, timer, spent })
+        let (direct, fallbacks) = (None, 0);
+        Ok(Self { gpu, scene, memory, program, step, pace, direct, solve, viscous_solve, fallbacks, timer, spent })
     }
 
     /// The GPU that computes.
@@ -66,7 +68,9 @@ impl GpuEngine {
     /// Lets the next batch hold this many iterations for each solve, and returns how many it was going to.
     #[cfg(test)]
     pub(super) fn hold_iterations(&mut self, iterations: u32) -> u32 {
-        std::mem::replace(&mut self.pace.budget.iterations, iterations)
+        let [pressure, viscosity] = &mut self.pace.budgets;
+        viscosity.iterations = iterations;
+        std::mem::replace(&mut pressure.iterations, iterations)
     }
 
     fn set_clock(&self, clock: &Clock) -> Result<(), EngineError> {
@@ -84,6 +88,8 @@ impl GpuEngine {
                 Time::Diffusion => clock.kick * constants.viscosity,
                 Time::Stiffness => self.scene.stiffness(clock.dt),
                 Time::Stop => constants.tolerance * density_per_kick / clock.dt,
+                Time::ViscousStop => constants.viscous_tolerance / clock.dt,
+                Time::Seen => self.scene.seen_share(clock.kick),
             })
             .collect();
         self.memory.upload(&self.gpu, self.memory.own(Own::Clock), &values)
@@ -100,10 +106,19 @@ impl GpuEngine {
             let report = self.batch(step, counted).send(&mut cursor, rest, &mut pace)?;
             done.steps = report.word(Word::Steps);
             done.iterations = u64::from(report.word(Word::TotalIterations));
-            self.solve = report.solve_info();
+            self.solve = report.solve_info(Equation::Pressure);
+            self.viscous_solve = report.solve_info(Equation::Viscosity);
             report.spent.iter().for_each(|(&operation, seconds)| self.spend(operation, *seconds));
             let halted = report.halted();
             match halted {
+                Halted::ForDirectSolve if report.equation() == Equation::Viscosity => {
+                    // Numbers that are none are trouble; a solve that stands still is an error.
+                    done.trouble = self.first_non_finite(Buffer::Projected, 2)?;
+                    done.steps += u32::from(done.trouble.is_some());
+                    if done.trouble.is_none() {
+                        return Err(EngineError::viscosity(&self.viscous_solve));
+                    }
+                }
                 Halted::ForDirectSolve => {
                     let started = Instant::now();
                     done.trouble = self.solve_directly(report)?;
@@ -170,7 +185,7 @@ impl GpuEngine {
         }
         self.direct = Some(direct);
         self.memory.write_state(&self.gpu, report.state())?;
-        self.solve = report.solve_info();
+        self.solve = report.solve_info(Equation::Pressure);
         Ok(None)
     }
 
@@ -239,6 +254,10 @@ impl Engine for GpuEngine {
 
     fn solve_info(&self) -> SolveInfo {
         self.solve
+    }
+
+    fn viscous_solve_info(&self) -> Option<SolveInfo> {
+        self.scene.case.implicit_viscosity().then_some(self.viscous_solve)
     }
 
     fn seconds(&self) -> Spent {

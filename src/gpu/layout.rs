@@ -20,22 +20,28 @@ numbered! {
     Word {
         /// Why nothing runs any more.
         Halted = "HALTED",
-        /// Most iterations of a solve, and most fresh starts, in this batch.
+        /// Most iterations of a solve, and most fresh starts, in this batch: of the pressure, then of viscosity, as always.
         MostIterations = "MOST_ITERATIONS",
+        MostViscousIterations = "MOST_VISCOUS_ITERATIONS",
         MostStarts = "MOST_STARTS",
+        MostViscousStarts = "MOST_VISCOUS_STARTS",
         /// Steps done, and iterations of finished solves, since the run began.
         Steps = "STEPS",
         TotalIterations = "TOTAL_ITERATIONS",
+        TotalViscousIterations = "TOTAL_VISCOUS_ITERATIONS",
         /// Longest neighbour list met that did not fit.
         MostNeighbours = "MOST_NEIGHBOURS",
         /// First point whose field is not a number.
         BadVelocity = "BAD_VELOCITY",
         BadPressure = "BAD_PRESSURE",
         BadCarried = "BAD_CARRIED",
-        /// The solve under way.
+        /// The solve under way, and what it solves.
         Phase = "PHASE",
+        Equation = "EQUATION",
         Outcome = "OUTCOME",
+        ViscousOutcome = "VISCOUS_OUTCOME",
         Iterations = "ITERATIONS",
+        ViscousIterations = "VISCOUS_ITERATIONS",
         Starts = "STARTS",
         SinceBest = "SINCE_BEST",
     }
@@ -74,7 +80,9 @@ numbered! {
     /// Entries of `scalars`.
     Scalar {
         FirstResidual = "FIRST_RESIDUAL",
+        FirstViscousResidual = "FIRST_VISCOUS_RESIDUAL",
         LastResidual = "LAST_RESIDUAL",
+        LastViscousResidual = "LAST_VISCOUS_RESIDUAL",
         Energy = "ENERGY",
         DivergenceSquare = "DIVERGENCE_SQUARE",
         SpeedSquare = "SPEED_SQUARE",
@@ -106,8 +114,11 @@ numbered! {
         Diffusion = "CLOCK_DIFFUSION",
         /// `relaxation rho / dt^2`: of an error in density.
         Stiffness = "CLOCK_STIFFNESS",
-        /// Residual at which a solve is done.
+        /// Residual at which a solve is done, of the pressure and of viscosity.
         Stop = "CLOCK_STOP",
+        ViscousStop = "CLOCK_VISCOUS_STOP",
+        /// Part of the mean pressure's kick that the source sees, after implicit viscosity.
+        Seen = "CLOCK_SEEN",
     }
 }
 

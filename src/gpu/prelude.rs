@@ -5,12 +5,13 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
+use crate::cpu::operations::implicit_viscosity;
 use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
 use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
-use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
+use crate::step::{BLOCK, Equation, PRESSURE_RELAXATION, Rung};
 
 /// Invocations of a workgroup over points or cells, and those that add up its sum in the middle.
 pub(super) const GROUP: u32 = 64;
@@ -107,6 +108,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("RUNG_NEAREST", Rung::NEAREST as usize),
         ("RUNG_FAILED", Rung::FAILED as usize),
         ("MAX_ITERATIONS", constants.max_iterations as usize),
+        ("VISCOUS_ITERATIONS_ALLOWED", implicit_viscosity::MOST_ITERATIONS as usize),
+        ("EQUATION_PRESSURE", Equation::Pressure as usize),
+        ("EQUATION_VISCOSITY", Equation::Viscosity as usize),
         ("STOP_PATIENCE", Stop::PATIENCE as usize),
         ("STOP_RESTARTS", Stop::RESTARTS as usize),
         ("GROUP", GROUP as usize),
@@ -145,6 +149,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
         ("STOP_FLOOR", constants.floor),
+        ("VISCOUS_FLOOR", Stop::CONSERVATIVE_FLOOR),
+        ("DYNAMIC_VISCOSITY", constants.density * constants.viscosity),
         ("EPSILON", precision.epsilon()),
         ("SHIFT_PER_POINT", constants.shift / sizes.points as f64),
     ];

@@ -11,7 +11,7 @@ use super::memory::Memory;
 use super::sources::{self, Stage, Stages};
 use crate::engine::EngineError;
 use crate::scene::Scene;
-use crate::step::{Buffer, Operation, Points};
+use crate::step::{Buffer, Equation, Operation, Points};
 
 /// What one operation dispatches.
 enum Part {
@@ -49,7 +49,8 @@ impl Program {
                 Stages::Once(stages) => Part::Once(all(&stages)?),
                 Stages::Solve { check, iterate } => {
                     let (check, iterate) = (all(&check)?, all(&iterate)?);
-                    let begin = compiler.launch(&sources::BEGIN_SOLVE, &arrays)?;
+                    let equation = operation.solves().unwrap_or(Equation::Pressure);
+                    let begin = compiler.launch(&sources::begin(equation), &arrays)?;
                     Part::Solve { begin, check, iterate, end: compiler.launch(&sources::END_SOLVE, &arrays)? }
                 }
             };
@@ -69,13 +70,14 @@ impl Program {
         self.parts.contains_key(&operation)
     }
 
-    /// Writes one operation of the plan into a pass; `resumed` takes up the solve that the last batch left unfinished.
+    /// Writes one operation of the plan into a pass; `resumed` takes up the solve that the last batch left unfinished;
+    /// `budgets` are those of the pressure's solve and of viscosity's.
     /// Returns how many dispatches that took.
     pub fn encode(
         &self,
         operation: Operation,
         resumed: bool,
-        budget: Budget,
+        budgets: [Budget; 2],
         pass: &mut ComputePass<'_>,
         dispatches: &GpuBuffer,
     ) -> usize {
@@ -88,6 +90,7 @@ impl Program {
             None => {}
             Some(Part::Once(launches)) => run(launches),
             Some(Part::Solve { begin, check, iterate, end }) => {
+                let budget = budgets[operation.solves().unwrap_or(Equation::Pressure) as usize];
                 if !resumed {
                     run(std::slice::from_ref(begin));
                     run(check);

@@ -5,7 +5,7 @@ use super::unrolled;
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
-use crate::step::{Carried, Operation, Stage as Part};
+use crate::step::{Carried, Equation, Operation, Stage as Part};
 
 /// One kernel.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ pub(super) struct Stage {
 pub(super) enum Stages {
     /// Once, in order.
     Once(Vec<Stage>),
-    /// A pressure solve: `check` and `iterate` until a residual is low enough.
+    /// A solve: `check` and `iterate` until a residual is low enough.
     Solve { check: Vec<Stage>, iterate: Vec<Stage> },
 }
 
@@ -47,12 +47,21 @@ macro_rules! stage {
 }
 
 pub(super) const BEGIN_SOLVE: Stage = stage!("step/begin_solve");
+pub(super) const BEGIN_VISCOUS_SOLVE: Stage = stage!("step/begin_viscous_solve");
 pub(super) const END_SOLVE: Stage = stage!("step/end_solve");
 pub(super) const WATCH_VELOCITY: Stage = stage!("step/watch_velocity", Points);
 pub(super) const WATCH_PRESSURE: Stage = stage!("step/watch_pressure", Points);
 pub(super) const WATCH_CARRIED: Stage = stage!("step/watch_carried", Points);
 pub(super) const END_STEP: Stage = stage!("step/end_step");
 pub(super) const MEASURE: [Stage; 2] = [stage!("measure/partial", Points), stage!("measure/total")];
+
+/// What a solve of an equation begins with.
+pub(super) fn begin(equation: Equation) -> Stage {
+    match equation {
+        Equation::Pressure => BEGIN_SOLVE,
+        Equation::Viscosity => BEGIN_VISCOUS_SOLVE,
+    }
+}
 
 /// The kernels of an operation.
 pub(super) fn stages(operation: Operation) -> Stages {
@@ -99,6 +108,22 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::Buoyancy => once(stage!("buoyancy", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
+        Operation::ImplicitViscosity => Stages::Solve {
+            check: vec![stage!("implicit_viscosity/residual", Check), stage!("implicit_viscosity/judge")],
+            iterate: vec![
+                stage!("implicit_viscosity/product", Iterate),
+                stage!("implicit_viscosity/alpha"),
+                stage!("implicit_viscosity/update", Iterate),
+                stage!("implicit_viscosity/beta"),
+                stage!("implicit_viscosity/direction", Iterate),
+            ],
+        },
+        Operation::ImplicitKick => once(stage!("implicit_kick", Points)),
+        Operation::PredictImplicit => once(stage!("predict_implicit", Points)),
+        Operation::AddMeanPressure => once(stage!("add_mean_pressure", Points)),
+        Operation::RelaxPressure => once(stage!("relax_pressure", Points)),
+        Operation::MeanKickByFit => once(stage!("mean_kick_by_fit", Points)),
+        Operation::MeanKickByAdjoint => once(stage!("mean_kick_by_adjoint", Points)),
         Operation::Predict => once(stage!("predict", Points)),
         Operation::Divergence => once(stage!("divergence", Points)),
         Operation::DivergenceByFit => once(stage!("divergence_by_fit", Points)),
@@ -215,6 +240,8 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "matrix" if conservative => text!("matrix/conservative"),
         "matrix" if integral => text!("matrix/symmetric"),
         "matrix" => text!("matrix/collocated"),
+        "viscous_matrix" => text!("viscous_matrix"),
+        "viscous_diagonal" => text!("viscous_diagonal"),
         "density" if conservative => text!("density/conservative"),
         "density" if integral => text!("density/symmetric"),
         "density" => text!("density/collocated"),

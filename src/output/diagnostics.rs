@@ -1,4 +1,5 @@
-//! diagnostics.csv: one row a report, on disk before the next step begins; a column for each probe behind the others.
+//! diagnostics.csv: one row a report, on disk before the next step begins; behind the others a column for the iterations of implicit
+//! viscosity, where there is such a solve, and one for each probe.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -15,8 +16,8 @@ const HEADER: &str = "step,time,dt,kinetic_energy,max_speed,divergence,pressure_
 pub struct DiagnosticsWriter {
     path: PathBuf,
     file: File,
-    /// Names of the probes.
-    probes: Vec<String>,
+    /// Names of the columns behind the others: the iterations of implicit viscosity, if there are any, and the probes.
+    more: Vec<String>,
 }
 
 impl DiagnosticsWriter {
@@ -24,11 +25,11 @@ impl DiagnosticsWriter {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn create(path: &Path, probes: Vec<String>) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, more: Vec<String>) -> Result<Self, OutputError> {
         let mut file = File::create(path).map_err(OutputError::io(path))?;
         hold(&file);
-        writeln!(file, "{}", header(&probes)).map_err(OutputError::io(path))?;
-        Ok(Self { path: path.to_owned(), file, probes })
+        writeln!(file, "{}", header(&more)).map_err(OutputError::io(path))?;
+        Ok(Self { path: path.to_owned(), file, more })
     }
 
     /// Goes on with the file of a run from its state after `step`: rows behind that one, and one that a kill cut off, are
@@ -36,11 +37,11 @@ impl DiagnosticsWriter {
     ///
     /// # Errors
     /// A file that is not of this kind, or lacks the row of that step; errors of the file system.
-    pub fn resume(path: &Path, step: u64, probes: Vec<String>) -> Result<Self, OutputError> {
-        rows::cut(path, &header(&probes), "diagnostics", step)?;
+    pub fn resume(path: &Path, step: u64, more: Vec<String>) -> Result<Self, OutputError> {
+        rows::cut(path, &header(&more), "diagnostics", step)?;
         let file = OpenOptions::new().append(true).open(path).map_err(OutputError::io(path))?;
         hold(&file);
-        Ok(Self { path: path.to_owned(), file, probes })
+        Ok(Self { path: path.to_owned(), file, more })
     }
 
     /// Has the rows on the disk itself: they are to be there before a checkpoint that counts on them.
@@ -64,6 +65,7 @@ impl DiagnosticsWriter {
             residual,
             change,
             limit,
+            viscous_iterations,
             probes,
         } = row;
         for (field, value) in [
@@ -77,7 +79,8 @@ impl DiagnosticsWriter {
         ] {
             finite(&format!("{field} of step {step}"), *value)?;
         }
-        for (name, value) in self.probes.iter().zip(probes) {
+        let names = &self.more[usize::from(viscous_iterations.is_some())..];
+        for (name, value) in names.iter().zip(probes) {
             finite(&format!("{name} of step {step}"), *value)?;
         }
         // One write a row: a reader never sees half of one.
@@ -85,14 +88,15 @@ impl DiagnosticsWriter {
             "{step},{time:?},{dt:?},{kinetic_energy:?},{max_speed:?},{divergence:?},{pressure_iterations},{residual:?},\
              {change:?},{limit}"
         );
+        let line = viscous_iterations.iter().fold(line, |line, iterations| format!("{line},{iterations}"));
         let line = probes.iter().fold(line, |line, value| format!("{line},{value:?}")) + "\n";
         self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush()).map_err(OutputError::io(&self.path))
     }
 }
 
-/// The columns, those of the probes last.
-fn header(probes: &[String]) -> String {
-    [HEADER].into_iter().chain(probes.iter().map(String::as_str)).collect::<Vec<_>>().join(",")
+/// The columns, those that not every run has last.
+fn header(more: &[String]) -> String {
+    [HEADER].into_iter().chain(more.iter().map(String::as_str)).collect::<Vec<_>>().join(",")
 }
 
 /// Others are to see that a run goes on here. Not every file system can tell them: then there is no more to do.
@@ -154,6 +158,20 @@ mod tests {
         );
         let broken = Diagnostics { probes: vec![0.25, f64::NAN], ..row };
         assert!(writer.append(&broken).unwrap_err().to_string().starts_with("drop of step 0 is NaN"));
+    }
+
+    #[test]
+    fn the_iterations_of_implicit_viscosity_stand_before_the_probes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnostics.csv");
+        let columns = vec!["viscous_iterations".to_owned(), "drag".to_owned()];
+        let mut writer = DiagnosticsWriter::create(&path, columns).unwrap();
+        let row = Diagnostics { viscous_iterations: Some(9), probes: vec![0.25], ..Default::default() };
+        writer.append(&row).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(text, format!("{HEADER},viscous_iterations,drag\n0,0.0,0.0,0.0,0.0,0.0,0,0.0,0.0,end,9,0.25\n"));
+        let broken = Diagnostics { probes: vec![f64::NAN], ..row };
+        assert!(writer.append(&broken).unwrap_err().to_string().starts_with("drag of step 0 is NaN"));
     }
 
     #[test]

@@ -73,7 +73,10 @@ impl Trouble {
         match self {
             Trouble::NonFinite { .. } | Trouble::Energy { .. } | Trouble::Figure { .. } => true,
             Trouble::Engine(error) => {
-                matches!(error, EngineError::Direct(_) | EngineError::NeighbourOverflow { .. })
+                matches!(
+                    error,
+                    EngineError::Direct(_) | EngineError::Viscosity { .. } | EngineError::NeighbourOverflow { .. }
+                )
             }
             Trouble::Refused(_) | Trouble::Diverged(_) => false,
         }

@@ -49,6 +49,9 @@ pub struct Diagnostics {
     pub change: f64,
     /// What kept the step from being longer.
     pub limit: Limit,
+    /// Iterations of the solve of implicit viscosity of this step; a column of its own where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscous_iterations: Option<u32>,
     /// Forces, differences and fluxes, in the order of [`Probe::of_case`]; columns of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<f64>,
@@ -146,6 +149,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
 const MOVING_DIFFUSION: f64 = 0.1;
 /// Share of the stability limit of viscosity and diffusion that a step uses.
 const STABLE_SHARE: f64 = 0.8;
+/// Share of the decay of the slowest shear that a step with implicit viscosity takes.
+const DECAY_SHARE: f64 = 0.1;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -353,8 +358,12 @@ impl<'a> Run<'a> {
             Some(step) => (step, Limit::Fixed),
             None => {
                 let by_motion = if moves { time.courant * spacing / self.faster(speed) } else { f64::INFINITY };
-                let limits =
-                    [(self.limit, self.stable_by()), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
+                let limits = [
+                    (self.limit, self.stable_by()),
+                    (self.by_decay(), Limit::Viscosity),
+                    (by_motion, Limit::Courant),
+                    (self.by_fall(), Limit::Gravity),
+                ];
                 let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
                 limits.into_iter().fold((f64::INFINITY, Limit::End), shorter)
             }
@@ -395,6 +404,16 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Of implicit viscosity, which is stable in steps of any length, the share of the time in which it slows a shear between the
+    /// nearer sides by a factor of e that a step may take, s.
+    fn by_decay(&self) -> f64 {
+        if !self.scene.case.implicit_viscosity() {
+            return f64::INFINITY;
+        }
+        let across = self.scene.cloud.size.min_element() / std::f64::consts::PI;
+        DECAY_SHARE * across.powi(2) / self.scene.constants.viscosity
+    }
+
     /// What depends on the length of a step, before the first one of it.
     fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
         let clock = self.scene.clock(dt);
@@ -404,12 +423,18 @@ impl<'a> Run<'a> {
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
     fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
+        let clock = self.scene.clock(dt);
+        // What implicit viscosity begins from.
+        let mean = [Operation::MeanKickByFit, Operation::MeanKickByAdjoint];
+        for &operation in self.scene.plan.kick.iter().filter(|operation| mean.contains(operation)) {
+            self.engine.apply(operation, &clock)?;
+        }
         if self.scene.plan.splitting == Splitting::Projection {
             return Ok(());
         }
-        let clock = Clock { second_kick: 0.0, ..self.scene.clock(dt) };
+        let clock = Clock { second_kick: 0.0, ..clock };
         let balance = clock.kick * self.scene.balanced_gravity();
-        if balance != DVec2::ZERO {
+        if self.scene.plan.form.is_some() && balance != DVec2::ZERO {
             let inside = vec![balance; self.scene.sizes.interior];
             self.engine.write(Buffer::PressureKick, &self.scene.vectors(&inside, DVec2::ZERO))?;
         }
@@ -429,8 +454,12 @@ impl<'a> Run<'a> {
     /// Makes the second half of the last kick, `u' - u_m`, and the pressure's part in it `ratio` times as long: that of the step
     /// to come.
     fn change_step(&mut self, ratio: f64) -> Result<(), EngineError> {
-        if self.scene.plan.splitting == Splitting::Projection || (ratio - 1.0).abs() < SAME_STEP {
+        if (ratio - 1.0).abs() < SAME_STEP {
             return Ok(());
+        }
+        if self.scene.plan.splitting == Splitting::Projection {
+            let keeps = self.scene.plan.buffers().contains(&Buffer::PressureKick);
+            return if keeps { self.scale_pressure_kick(ratio) } else { Ok(()) };
         }
         let [middle, reflected] = [Buffer::Projected, Buffer::Reflected];
         if let (Data::Real(middle), Data::Real(mut end)) = (self.engine.read(middle)?, self.engine.read(reflected)?) {
@@ -462,7 +491,11 @@ impl<'a> Run<'a> {
     /// Largest stable step of the explicit viscous term, s, from the spectral radius of the operator by power iteration: on
     /// scattered points no formula knows it. Euler's step and the midpoint rule are stable up to `dt nu |lambda| = 2`.
     fn viscous_limit(&mut self) -> Result<f64, EngineError> {
-        let Some(viscosity) = &self.scene.case.effects.viscosity else { return Ok(f64::INFINITY) };
+        let Some(viscosity) =
+            self.scene.case.effects.viscosity.as_ref().filter(|_| !self.scene.case.implicit_viscosity())
+        else {
+            return Ok(f64::INFINITY);
+        };
         if self.scene.plan.moves() {
             // The arrangement changes: the bound of a lattice, with room.
             return Ok(MOVING_DIFFUSION * self.scene.constants.spacing.powi(2) / viscosity.kinematic);

@@ -105,6 +105,7 @@ impl Run<'_> {
             residual: solve.last_residual * dt * clock.kick / self.scene.constants.density,
             change: measured.change,
             limit,
+            viscous_iterations: self.engine.viscous_solve_info().map(|solve| solve.iterations),
             probes: Vec::new(),
         };
         if let Some(trouble) = self.watch(&row)? {

@@ -82,9 +82,9 @@ pub enum Buffer {
     Kick,
     /// Divergence-free velocity: what is reported, m/s; interleaved. Within the step first `u*`.
     Projected,
-    /// Velocity that moves the points, m/s; interleaved. Reflection alone.
+    /// Velocity that moves the points, m/s; interleaved. Reflection and implicit viscosity.
     Reflected,
-    /// Relaxed mean of the pressure's kicks, m/s; interleaved. Reflection alone.
+    /// Relaxed mean of the pressure's kicks, m/s; interleaved. Reflection and implicit viscosity.
     PressureKick,
     /// The scaled coefficients of the fit of u, five for order 2, then of v, m/s, blocked.
     Coefficients,
@@ -106,6 +106,19 @@ pub enum Buffer {
     Pressure,
     /// Right side of the pressure equation.
     Source,
+    /// The velocity in the middle of the kick, viscosity taken there, m/s; interleaved. Implicit viscosity alone, as the
+    /// six below.
+    Middle,
+    /// Its solver's vectors, m^3/s, m/s and m^3/s; interleaved.
+    ViscousResidual,
+    ViscousDirection,
+    ViscousProduct,
+    /// Sum of the weights of a cell's faces, `sum_j w_ij`, no unit.
+    FaceSum,
+    /// Divergence that is to be taken off `Middle`, 1/s.
+    Dilation,
+    /// Relaxed mean of the pressures, Pa, whose kick is `PressureKick`.
+    MeanPressure,
     /// Solver vectors.
     Residual,
     Direction,
@@ -186,6 +199,13 @@ impl Buffer {
             Buffer::ScalarMiddle => ("scalar_middle", None),
             Buffer::Pressure => ("pressure", None),
             Buffer::Source => ("source", None),
+            Buffer::Middle => ("middle", None),
+            Buffer::ViscousResidual => ("viscous_residual", None),
+            Buffer::ViscousDirection => ("viscous_direction", None),
+            Buffer::ViscousProduct => ("viscous_product", None),
+            Buffer::FaceSum => ("face_sum", None),
+            Buffer::Dilation => ("dilation", None),
+            Buffer::MeanPressure => ("mean_pressure", None),
             Buffer::Residual => ("residual", None),
             Buffer::Direction => ("direction", None),
             Buffer::Product => ("product", None),
@@ -239,6 +259,10 @@ impl Buffer {
             | Buffer::Projected
             | Buffer::Reflected
             | Buffer::PressureKick
+            | Buffer::Middle
+            | Buffer::ViscousResidual
+            | Buffer::ViscousDirection
+            | Buffer::ViscousProduct
             | Buffer::Reported
             | Buffer::Displacement
             | Buffer::Departure

@@ -62,7 +62,8 @@ impl Operation {
             FitScalar(_) | CarryScalar(_) | Diffuse(..) => Effect::Tracers,
             Gravity | HoldWalls => Effect::Gravity,
             Buoyancy => Effect::Buoyancy,
-            Viscosity(_) | EstimateMiddle => Effect::Viscosity,
+            Viscosity(_) | EstimateMiddle | ImplicitViscosity | ImplicitKick => Effect::Viscosity,
+            PredictImplicit | AddMeanPressure | RelaxPressure | MeanKickByFit | MeanKickByAdjoint => Effect::Viscosity,
             AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | ConjugateGradient
             | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => Effect::Pressure,
             FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast => {

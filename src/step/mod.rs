@@ -18,6 +18,18 @@
 //!         reflect             u' = u_m + kick - (dt/2 rho) grad p
 //! ```
 //!
+//! Implicit viscosity stands in place of the two explicit ones:
+//!
+//! ```text
+//!         estimate_middle     b = u + kick - G, the kick of the mean pressure P
+//!         implicit_viscosity  (V + (dt/2) nu K) u_m = V b
+//!         implicit_kick       kick += u_m - b
+//!         predict_implicit    u_m + theta G, of which the source b is taken
+//!         add_mean_pressure   d = -(h / rho) (b - theta K P) / V,  b += (1 - theta) K P     then solve, predict, correction, reflection
+//!         relax_pressure      P += (p - P - rho nu d) / 2
+//!         mean_kick_by_fit    G = (dt/2 rho) grad P
+//! ```
+//!
 //! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
 
 mod buffer;
@@ -32,7 +44,7 @@ pub use buffer::{Buffer, Element, Points};
 pub use carried::Carried;
 pub use effect::Effect;
 pub use grid::Grid;
-pub use operation::{Kicked, Operation, Stage};
+pub use operation::{Equation, Kicked, Operation, Stage};
 pub use plan::{Plan, Sizes};
 pub use rung::Rung;
 

@@ -43,6 +43,18 @@ impl Kicked {
     }
 }
 
+/// What a solve is for. A step has at most one solve of each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Equation {
+    Pressure,
+    /// Implicit viscosity.
+    Viscosity,
+}
+
+impl Equation {
+    pub const ALL: [Self; 2] = [Self::Pressure, Self::Viscosity];
+}
+
 /// One thing that an engine does to its arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum Operation {
@@ -102,6 +114,14 @@ pub enum Operation {
     Buoyancy,
     /// Adds `dt nu lap u` to the kick.
     Viscosity(Stage),
+    /// Solves for the velocity in the middle of the kick, viscosity taken there: `(V + dt nu K) u_m = V b`.
+    ImplicitViscosity,
+    /// Adds what viscosity did to the kick, `u_m - b`.
+    ImplicitKick,
+    /// `u_m + theta G`, of which the source is taken: with the mean pressure's kick as far as a short step would have it.
+    PredictImplicit,
+    /// Notes what divergence that has, and adds to the source what the rest of the mean pressure's kick stands for.
+    AddMeanPressure,
     /// `u* = u + kick`.
     Predict,
     /// Source of the conservative pressure equation: the volume flux of `u*` out of every cell.
@@ -128,6 +148,12 @@ pub enum Operation {
     OpenSides(Kicked),
     /// Goes on through the divergence-free velocity for the second half of the kick.
     Reflect,
+    /// Moves the mean pressure towards the one found, and by `-rho nu` times that divergence.
+    RelaxPressure,
+    /// The kick of the mean pressure by the fitted gradient.
+    MeanKickByFit,
+    /// The same by minus the adjoint of the divergence.
+    MeanKickByAdjoint,
 
     /// Points that move: moves the fluid's by `dt u*`.
     AdvancePoints,
@@ -195,6 +221,10 @@ impl Operation {
             Operation::Gravity => "gravity",
             Operation::Buoyancy => "buoyancy",
             Operation::Viscosity(_) => "viscosity",
+            Operation::ImplicitViscosity => "implicit_viscosity",
+            Operation::ImplicitKick => "implicit_kick",
+            Operation::PredictImplicit => "predict_implicit",
+            Operation::AddMeanPressure => "add_mean_pressure",
             Operation::Predict => "predict",
             Operation::Divergence => "divergence",
             Operation::DivergenceByFit => "divergence_by_fit",
@@ -208,6 +238,9 @@ impl Operation {
             Operation::HoldWalls => "hold_walls",
             Operation::OpenSides(_) => "open_sides",
             Operation::Reflect => "reflect",
+            Operation::RelaxPressure => "relax_pressure",
+            Operation::MeanKickByFit => "mean_kick_by_fit",
+            Operation::MeanKickByAdjoint => "mean_kick_by_adjoint",
             Operation::AdvancePoints => "advance_points",
             Operation::FactoriseMirrored => "factorise_mirrored",
             Operation::FitPredicted => "fit_predicted",
@@ -224,6 +257,15 @@ impl Operation {
             Operation::Average => "average",
             Operation::Gradient => "gradient",
             Operation::Laplacian => "laplacian",
+        }
+    }
+
+    /// The equation that the operation solves, where it does.
+    pub fn solves(self) -> Option<Equation> {
+        match self {
+            Operation::ConjugateGradient | Operation::Bicgstab | Operation::DirectSolve => Some(Equation::Pressure),
+            Operation::ImplicitViscosity => Some(Equation::Viscosity),
+            _ => None,
         }
     }
 
@@ -299,6 +341,10 @@ impl Operation {
             Operation::Buoyancy => vec![Carried(super::Carried::Temperature)],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
+            Operation::ImplicitViscosity => with(faces.to_vec(), &[FaceSum, Volume, Projected]),
+            Operation::ImplicitKick => vec![Middle, Projected],
+            Operation::PredictImplicit => vec![Middle, PressureKick, Kick],
+            Operation::AddMeanPressure => with(faces.to_vec(), &[MeanPressure, Volume]),
             Operation::Predict => vec![Velocity, Kick],
             Operation::Divergence => with(faces.to_vec(), &[Position(standing), Projected]),
             Operation::DivergenceByFit => vec![FluxPoints, FluxCount, FluxRow, Projected],
@@ -313,6 +359,9 @@ impl Operation {
             Operation::HoldWalls => vec![Velocity],
             Operation::OpenSides(_) => vec![OpenPoints, OpenRow, OpenCount, OpenNormal],
             Operation::Reflect => vec![Velocity, Projected, Kick],
+            Operation::RelaxPressure => vec![Pressure, Dilation],
+            Operation::MeanKickByFit => with(sums(GradientRow), &[MeanPressure]),
+            Operation::MeanKickByAdjoint => with(faces.to_vec(), &[Position(standing), Volume, MeanPressure]),
             Operation::AdvancePoints => vec![],
             Operation::FindSurface => around,
             Operation::FactoriseMirrored => with(around, &[Surface]),
@@ -357,14 +406,21 @@ impl Operation {
             Operation::HeatWalls(Stage::Middle) => vec![Carried(super::Carried::Temperature)],
             Operation::MovePoints => vec![Position(Points::Moved)],
             Operation::ClearKick | Operation::Gravity | Operation::Buoyancy | Operation::Viscosity(_) => vec![Kick],
+            Operation::ImplicitViscosity => vec![Middle, ViscousResidual, ViscousDirection, ViscousProduct],
+            Operation::ImplicitKick => vec![Kick],
+            Operation::RelaxPressure => vec![MeanPressure],
+            Operation::MeanKickByFit | Operation::MeanKickByAdjoint => vec![PressureKick],
             Operation::EstimateMiddle => vec![Projected, Kick],
-            Operation::Predict | Operation::CorrectByFit | Operation::CorrectByAdjoint | Operation::HoldWalls => {
-                vec![Projected]
-            }
+            Operation::Predict
+            | Operation::PredictImplicit
+            | Operation::CorrectByFit
+            | Operation::CorrectByAdjoint
+            | Operation::HoldWalls => vec![Projected],
             Operation::Divergence
             | Operation::DivergenceByFit
             | Operation::AddWallFlux
             | Operation::CollocatedSource => vec![Source],
+            Operation::AddMeanPressure => vec![Source, Dilation],
             Operation::ConjugateGradient => vec![Pressure, Residual, Direction, Product],
             Operation::Bicgstab => {
                 vec![Pressure, Residual, Direction, Product, Shadow, Stabilised, StabilisedProduct, Preconditioned]
@@ -421,6 +477,9 @@ impl Operation {
             Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Displacement],
             Operation::Collide => vec![Kick],
             Operation::EstimateMiddle => vec![Projected],
+            Operation::ImplicitViscosity => vec![ViscousResidual, ViscousDirection, ViscousProduct],
+            Operation::AddMeanPressure => vec![Dilation],
+            Operation::PredictImplicit | Operation::MeanKickByFit | Operation::MeanKickByAdjoint => self.writes(),
             // The solution begins from the one at hand.
             Operation::ConjugateGradient | Operation::Bicgstab => {
                 self.writes().into_iter().filter(|&buffer| buffer != Pressure).collect()

@@ -234,9 +234,13 @@ impl Plan {
     fn of_flow(case: &Case) -> Self {
         use Operation::*;
         let effects = &case.effects;
-        // Without a pressure there is nothing to reflect.
-        let splitting = if effects.pressure.is_some() { case.time.splitting } else { Splitting::Projection };
-        let reflects = splitting == Splitting::Reflection;
+        let implicit = case.implicit_viscosity();
+        let explicit = effects.viscosity.is_some() && !implicit;
+        // Without a pressure or a velocity that is solved for there is nothing to reflect.
+        let halves = effects.pressure.is_some() || implicit;
+        let splitting = if halves { case.time.splitting } else { Splitting::Projection };
+        // A kick of a whole step has no second half, but a mean pressure that implicit viscosity begins from.
+        let reflects = splitting == Splitting::Reflection || implicit;
         let collocated = effects.pressure.as_ref().is_some_and(|pressure| pressure.form() == PressureForm::Collocated);
         let (through_flow, outlets) = (case.flows_through(), case.has_side(case::SideKind::Outlet));
         let standing = Points::Standing;
@@ -245,7 +249,7 @@ impl Plan {
         let rows = Rows {
             operators: case.method.operators,
             graded: !case.cloud.refine.is_empty(),
-            laplacian: effects.viscosity.is_some() || collocated,
+            laplacian: explicit || collocated,
             gradient: effects.pressure.as_ref().is_some_and(|pressure| pressure.gradient() == case::Gradient::Fit),
         };
         // What carries the velocity evaluates fits, and so do reports where no cells measure the divergence.
@@ -301,7 +305,14 @@ impl Plan {
             kick.push(ClearKick);
         }
         kick.extend(&weight);
-        if effects.viscosity.is_some() {
+        if implicit {
+            kick.extend([EstimateMiddle, ImplicitViscosity]);
+            kick.extend(&weight);
+            kick.push(ImplicitKick);
+            if effects.pressure.is_some() {
+                kick.push(PredictImplicit);
+            }
+        } else if explicit {
             kick.push(Viscosity(Stage::Start));
             if reflects {
                 kick.push(EstimateMiddle);
@@ -315,7 +326,8 @@ impl Plan {
                 kick.push(Viscosity(Stage::Middle));
             }
         }
-        if case.velocity_changes() {
+        let lagged = implicit && effects.pressure.is_some();
+        if case.velocity_changes() && !lagged {
             kick.push(Predict);
         }
         if let Some(pressure) = &effects.pressure {
@@ -333,7 +345,13 @@ impl Plan {
             if through_flow && !collocated {
                 kick.push(AddWallFlux);
             }
+            if lagged {
+                kick.push(AddMeanPressure);
+            }
             kick.push(solve_by(pressure.solver()));
+            if lagged {
+                kick.push(Predict);
+            }
             kick.push(match pressure.gradient() {
                 case::Gradient::Fit => CorrectByFit,
                 case::Gradient::Adjoint => CorrectByAdjoint,
@@ -350,6 +368,15 @@ impl Plan {
             if open {
                 kick.push(OpenSides(Kicked::After));
             }
+        }
+        if let (Some(pressure), true) = (&effects.pressure, implicit) {
+            kick.extend([
+                RelaxPressure,
+                match pressure.gradient() {
+                    case::Gradient::Fit => MeanKickByFit,
+                    case::Gradient::Adjoint => MeanKickByAdjoint,
+                },
+            ]);
         }
         Self {
             setup,
@@ -395,7 +422,8 @@ impl Plan {
 
     /// True where some operation goes through the faces of the Voronoi cells.
     pub fn has_faces(&self) -> bool {
-        let diffuses = |operation: &Operation| matches!(operation, Operation::Diffuse(..));
+        let diffuses =
+            |operation: &Operation| matches!(operation, Operation::Diffuse(..) | Operation::ImplicitViscosity);
         self.form == Some(PressureForm::Conservative) || self.kick.iter().any(diffuses)
     }
 

@@ -1,6 +1,6 @@
 //! Heat and tracers: what is conserved, what is exact, the orders of convergence, and what an absent one costs.
 
-use stillpoint::case::{Case, Component};
+use stillpoint::case::{Case, Component, Scheme};
 use stillpoint::cpu;
 use stillpoint::exact::Exact;
 use stillpoint::measure::FieldError;
@@ -93,7 +93,8 @@ fn conduction_couettes_and_poiseuilles_flow_are_of_second_order() {
     let plates = |n: usize, overrides: &[&str]| {
         let mut case = cavity_of(n, &[&["domain.periodic=x", "time.end=0.5"], overrides].concat());
         (case.effects.pressure, case.effects.advection) = (None, None);
-        case.effects.viscosity = Some(stillpoint::case::Viscosity { kinematic: 0.1 });
+        case.effects.viscosity =
+            Some(stillpoint::case::Viscosity { kinematic: 0.1, scheme: Scheme::Explicit, tolerance: None });
         exact_error(&case, Component::Velocity)
     };
     for (name, arrangement) in ARRANGEMENTS {

@@ -30,4 +30,5 @@ mod remap;
 mod repeatability;
 mod runs;
 mod sides;
+mod viscosity;
 mod voronoi;

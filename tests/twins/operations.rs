@@ -6,7 +6,7 @@ use std::sync::Arc;
 use stillpoint::case::PressureForm;
 use stillpoint::cpu::operations::moving::density;
 use stillpoint::direct::DirectSolver;
-use stillpoint::engine::{Clock, Data, Engine, Outcome};
+use stillpoint::engine::{Clock, Data, Engine, Outcome, SolveInfo};
 use stillpoint::scene::Scene;
 use stillpoint::step::{Buffer, Operation, Points, Rung, Stage};
 
@@ -46,7 +46,11 @@ fn iterates(operation: Operation) -> bool {
 /// What an operation is judged by. The vectors of a solver are on their way to nowhere when it stops; it has the pressure to
 /// show, and its residual.
 fn compared(operation: Operation) -> Vec<Buffer> {
-    if iterates(operation) { vec![Buffer::Pressure] } else { operation.writes() }
+    match operation {
+        Operation::ImplicitViscosity => vec![Buffer::Middle],
+        _ if iterates(operation) => vec![Buffer::Pressure],
+        _ => operation.writes(),
+    }
 }
 
 /// The arrays that an operation fills whatever they held. Erased before, so that one that does nothing is seen: a steady
@@ -74,6 +78,9 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::MovePoints
         | Operation::KeepVelocity
         | Operation::Predict
+        | Operation::PredictImplicit
+        | Operation::MeanKickByFit
+        | Operation::MeanKickByAdjoint
         | Operation::Divergence
         | Operation::DivergenceByFit
         | Operation::CollocatedSource
@@ -157,6 +164,11 @@ fn every_operation_of_every_scene_agrees_to_rounding() {
                 && done.operation == Operation::WidenSupport(Points::Standing)
             {
                 rungs.extend(of[..scene.sizes.points].iter().copied());
+            }
+            if done.operation == Operation::ImplicitViscosity {
+                let infos = done.engines.each().map(|engine| engine.viscous_solve_info().expect("a solve"));
+                let ended = |info: &SolveInfo| info.outcome == Outcome::Converged && info.iterations > 3;
+                assert!(infos.iter().all(ended), "{name}: {infos:?}");
             }
             if iterates(done.operation) {
                 residuals_agree(name, done);

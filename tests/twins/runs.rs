@@ -79,7 +79,9 @@ impl Observer for Keeper {
 #[test]
 fn a_run_in_two_gives_the_same_bits_as_one_in_one_go() {
     let Some(candidate) = candidate() else { return };
-    for form in ["effects.pressure.form=conservative", "effects.pressure.form=collocated"] {
+    for form in
+        ["effects.pressure.form=conservative", "effects.pressure.form=collocated", "effects.viscosity.scheme=implicit"]
+    {
         let base = ["cloud.arrangement=jittered", "time.end=0.3", "output.report_every=2", form];
         let scene = Arc::new(Scene::build(&cavity_of(16, &base)).expect("a scene"));
         let open = || gpu(&candidate, &scene, Precision::Single);
@@ -103,7 +105,8 @@ fn a_whole_run_in_f64_agrees_with_the_cpu() {
     let projection = ["time.splitting=projection", "effects.pressure.gradient=adjoint"];
     let (heated, open) = (scenes::heated(), scenes::OPEN);
     let base = ["cloud.arrangement=jittered", "effects.pressure.tolerance=1e-11", "time.end=0.3"];
-    let flows = [&[][..], &collocated, &projection, &heated, &open]
+    let implicit = ["effects.viscosity={ kinematic = 0.2, scheme = 'implicit', tolerance = 1e-11 }"];
+    let flows = [&[][..], &collocated, &projection, &heated, &open, &implicit]
         .map(|changes| (changes, scenes::of(&[&base, changes].concat())));
     let turning = Scene::build(&turning(14, &[base[0], base[2]])).expect("a scene");
     for (changes, scene) in flows.into_iter().chain([(&[][..], turning)]) {

@@ -142,6 +142,15 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     {
         scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
     }
+    for (name, changes) in IMPLICIT {
+        scenes.push((name, Arc::new(of(changes))));
+    }
+    let changes =
+        [TIGHT, FIT, "cloud.arrangement=jittered", "effects.viscosity={ kinematic = 0.5, scheme = 'implicit' }"];
+    scenes.push(("implicit viscosity, through-flow", Arc::new(Scene::build(&wake(14, &changes)).expect("a scene"))));
+    let mut shear = cavity_of(ACROSS, &["cloud.arrangement=jittered", IMPLICIT[0].1[1]]);
+    (shear.effects.pressure, shear.effects.advection) = (None, None);
+    scenes.push(("implicit viscosity alone", Arc::new(Scene::build(&shear).expect("a scene"))));
     scenes.push(("a channel that repeats", Arc::new(channel())));
     scenes.push(("obstacles in a lattice", Arc::new(with_obstacles("regular"))));
     scenes.push(("obstacles in relaxed points", Arc::new(with_obstacles("relaxed"))));
@@ -243,6 +252,29 @@ pub const OPEN: [&str; 6] = [
     "boundaries.top={ kind = 'slip' }",
     GRAVITY,
     "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
+
+/// Viscosity that is solved for, far beyond the steps that would be stable without.
+const IMPLICIT: [(&str, &[&str]); 2] = [
+    (
+        "implicit viscosity, gravity",
+        &[
+            "cloud.arrangement=jittered",
+            "effects.viscosity={ kinematic = 1.0, scheme = 'implicit', tolerance = 1e-9 }",
+            GRAVITY,
+        ],
+    ),
+    (
+        "implicit viscosity, adjoint, projection, bicgstab",
+        &[
+            "cloud.arrangement=random",
+            "method.radius=2.8",
+            "effects.viscosity={ kinematic = 1.0, scheme = 'implicit', tolerance = 1e-9 }",
+            "effects.pressure.gradient=adjoint",
+            "effects.pressure.solver=bicgstab",
+            "time.splitting=projection",
+        ],
+    ),
 ];
 
 /// A cavity heated from two sides, in which two tracers are carried.

@@ -40,7 +40,9 @@ fn spoil(scene: &Scene, engine: &mut dyn Engine) {
         }
         let Data::Real(mut values) = engine.read(buffer).expect("an array") else { panic!("{buffer:?} holds indexes") };
         let width = values.len() / scene.padded();
-        let interleaved = [Buffer::Kick, Buffer::Position(Points::Moved), Buffer::Departure].contains(&buffer);
+        let pairs = [Buffer::Kick, Buffer::Position(Points::Moved), Buffer::Departure];
+        let solver = [Buffer::ViscousResidual, Buffer::ViscousDirection, Buffer::ViscousProduct];
+        let interleaved = pairs.contains(&buffer) || solver.contains(&buffer);
         for (entry, value) in values.iter_mut().enumerate() {
             let block = entry / (BLOCK * width);
             let point = if interleaved { entry / 2 } else { block * BLOCK + entry % BLOCK };

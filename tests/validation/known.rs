@@ -22,7 +22,7 @@ fn measured(name: &str, overrides: &[&str]) -> Vec<ExpectationResult> {
     evaluate(&case, &outcome.snapshot, &profiles(&case).expect("profiles")).expect("measurements")
 }
 
-const CASES: [&str; 10] = [
+const CASES: [&str; 11] = [
     "taylor_green.toml",
     "kovasznay.toml",
     "derivatives.toml",
@@ -33,6 +33,7 @@ const CASES: [&str; 10] = [
     "rotating_tracer.toml",
     "channel.toml",
     "stokes_cavity.toml",
+    "creeping_cavity.toml",
 ];
 
 #[test]
@@ -59,6 +60,7 @@ fn errors_beyond_their_tolerance_are_missed() {
         ("conduction.toml", "cloud.spacing=0.0625"),
         ("rotating_tracer.toml", "method.order=2"),
         ("stokes_cavity.toml", "cloud.spacing=0.125"),
+        ("creeping_cavity.toml", "effects.pressure.tolerance=1e-6"),
     ] {
         assert!(measured(name, &[spoiled]).iter().all(|row| !row.pass), "{name} with {spoiled}");
     }

@@ -2,7 +2,8 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Boundaries, Case, Divergence, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Solver, Time,
+    Boundaries, Case, Divergence, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Scheme, Solver,
+    Time,
 };
 use super::require;
 
@@ -25,8 +26,17 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         return Err(Fault::reason("effects", reason));
     }
     if let Some(viscosity) = &case.effects.viscosity {
-        second_derivatives(case, "effects.viscosity")?;
         require(viscosity.kinematic > 0.0, "effects.viscosity.kinematic")?;
+        match viscosity.scheme {
+            Scheme::Explicit => second_derivatives(case, "effects.viscosity")?,
+            Scheme::Implicit => check_implicit(case)?,
+        }
+        let within = viscosity.tolerance.is_none_or(|tolerance| tolerance > 0.0 && tolerance < 1.0);
+        require(within, "effects.viscosity.tolerance")?;
+        if viscosity.tolerance.is_some() && viscosity.scheme == Scheme::Explicit {
+            let reason = "belongs to a solve, and effects.viscosity.scheme is \"explicit\"; leave it out";
+            return Err(Fault::reason("effects.viscosity.tolerance", reason));
+        }
     }
     if let Some(pressure) = &case.effects.pressure {
         check_pressure(pressure)?;
@@ -38,6 +48,21 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
         require(gravity.acceleration != [0.0, 0.0], "effects.gravity.acceleration")?;
     }
     check_remap(case)
+}
+
+/// Implicit viscosity goes through the faces of the cells, between velocities that are given on every side.
+fn check_implicit(case: &Case) -> Result<(), Fault> {
+    let collocated = |pressure: &Pressure| pressure.form() == PressureForm::Collocated;
+    let reason = if case.moves() {
+        "must be \"explicit\" with points that move (effects.advection.motion)"
+    } else if case.effects.pressure.as_ref().is_some_and(collocated) {
+        "must be \"explicit\" with effects.pressure.form = \"collocated\", whose walls ask for the force on them"
+    } else if case.has_open_sides() {
+        "must be \"explicit\" with boundaries.*.kind = \"slip\" or \"outlet\", whose velocities are not given"
+    } else {
+        return Ok(());
+    };
+    Err(Fault::reason("effects.viscosity.scheme", reason))
 }
 
 /// Problems without time: what they leave no room for, and what they need.

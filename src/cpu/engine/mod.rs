@@ -8,6 +8,7 @@ mod kick;
 mod moving;
 mod pressure;
 mod views;
+mod viscosity;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -46,6 +47,7 @@ pub struct CpuEngine<T: Real> {
     per_volume: Vec<T>,
     direct: Option<DirectSolver>,
     solve: SolveInfo,
+    viscous_solve: SolveInfo,
     fallbacks: u32,
     spent: Spent,
 }
@@ -59,8 +61,8 @@ impl<T: Real> CpuEngine<T> {
         }
         let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
-        let (solve, spent) = (SolveInfo::default(), Spent::default());
-        Ok(Self { scene, fields, domain, per_volume, direct: None, solve, fallbacks: 0, spent })
+        let (solve, viscous_solve, spent) = (SolveInfo::default(), SolveInfo::default(), Spent::default());
+        Ok(Self { scene, fields, domain, per_volume, direct: None, solve, viscous_solve, fallbacks: 0, spent })
     }
 
     /// The first entry that is not a number among the fields that carry the flow from step to step, and the source of the
@@ -145,6 +147,13 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::ShiftPoints
             | Operation::DisplacePoints
             | Operation::Collide => self.move_points(operation, clock),
+            Operation::ImplicitViscosity
+            | Operation::ImplicitKick
+            | Operation::PredictImplicit
+            | Operation::AddMeanPressure
+            | Operation::RelaxPressure
+            | Operation::MeanKickByFit
+            | Operation::MeanKickByAdjoint => self.diffuse_velocity(operation, clock),
             Operation::Average | Operation::Gradient | Operation::Laplacian => self.field(operation),
             Operation::Divergence
             | Operation::DivergenceByFit
@@ -180,6 +189,10 @@ impl<T: Real> Engine for CpuEngine<T> {
 
     fn solve_info(&self) -> SolveInfo {
         self.solve
+    }
+
+    fn viscous_solve_info(&self) -> Option<SolveInfo> {
+        self.scene.case.implicit_viscosity().then_some(self.viscous_solve)
     }
 
     fn seconds(&self) -> Spent {

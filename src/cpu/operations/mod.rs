@@ -11,6 +11,7 @@ pub mod diffuse;
 pub mod fit;
 pub mod fits;
 pub mod gravity;
+pub mod implicit_viscosity;
 pub mod integral;
 pub mod kick;
 pub mod lists;

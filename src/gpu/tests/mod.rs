@@ -37,7 +37,7 @@ end = 1.0
 "#;
 
 /// What the scenes of the tests change in it.
-const CHANGES: [&[&str]; 5] = [
+const CHANGES: [&[&str]; 7] = [
     &[],
     &["effects.pressure.gradient=\"adjoint\"", "effects.pressure.solver=\"bicgstab\"", "method.weight=\"none\""],
     &[
@@ -52,6 +52,14 @@ const CHANGES: [&[&str]; 5] = [
         "method.weight=\"quadratic\"",
         "cloud.arrangement=\"random\"",
         "time.splitting=\"projection\"",
+    ],
+    &["effects.viscosity.scheme=\"implicit\"", "effects.viscosity.tolerance=1e-9"],
+    &[
+        "effects.viscosity.scheme=\"implicit\"",
+        "effects.viscosity.tolerance=1e-9",
+        "effects.pressure.gradient=\"adjoint\"",
+        "time.splitting=\"projection\"",
+        "effects.gravity.acceleration=[0.3, -1.0]",
     ],
 ];
 

@@ -91,21 +91,29 @@ fn steps_agree_with_the_cpu_to_double_precision() {
 
 #[test]
 fn results_do_not_depend_on_how_steps_are_batched() {
-    let run = |portions: &[u32], iterations: u32| {
-        let scene = scene(&["effects.pressure.tolerance=1e-5"]);
-        let clock = scene.clock(0.01);
-        let mut engine = engine(scene, Precision::Single)?;
-        for &steps in portions {
-            engine.hold_iterations(iterations);
-            let done = engine.advance(steps, &clock).expect("steps");
-            assert!(done.steps == steps && done.iterations > 5 * u64::from(steps), "{done:?}");
-        }
-        Some([Buffer::Projected, Buffer::Pressure].map(|buffer| reals(&mut engine, buffer)))
-    };
-    let whole = run(&[12], 1000);
-    // Solves that a batch cannot hold, to be taken up again; and other lengths of batches.
-    assert_eq!(whole, run(&[12], 1));
-    assert_eq!(whole, run(&[1, 4, 7], 5));
+    let implicit = "effects.viscosity={ kinematic = 5.0, scheme = \"implicit\" }";
+    for (changes, solves) in [(&["effects.pressure.tolerance=1e-5"][..], 1), (&[implicit], 2)] {
+        let run = |portions: &[u32], iterations: u32| {
+            let scene = scene(changes);
+            let clock = scene.clock(0.01);
+            let mut engine = engine(scene, Precision::Single)?;
+            for &steps in portions {
+                engine.hold_iterations(iterations);
+                let done = engine.advance(steps, &clock).expect("steps");
+                assert!(done.steps == steps && done.iterations > 5 * u64::from(steps), "{done:?}");
+            }
+            let viscous = engine.viscous_solve_info();
+            assert!(
+                viscous.is_none_or(|solve| solve.iterations > 5) && viscous.is_some() == (solves == 2),
+                "{viscous:?}"
+            );
+            Some([Buffer::Projected, Buffer::Pressure].map(|buffer| reals(&mut engine, buffer)))
+        };
+        let whole = run(&[12], 1000);
+        // Solves that a batch cannot hold, to be taken up again; and other lengths of batches.
+        assert_eq!(whole, run(&[12], 1), "{changes:?}");
+        assert_eq!(whole, run(&[1, 4, 7], 5), "{changes:?}");
+    }
 }
 
 #[test]

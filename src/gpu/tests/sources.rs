@@ -40,7 +40,8 @@ fn kernels(scene: &Scene, precision: Precision) -> Vec<(&'static str, String)> {
         let stages = sources::stages(operation);
         stages.all().for_each(|stage| add(&stage, &arrays));
         if matches!(stages, Stages::Solve { .. }) {
-            [sources::BEGIN_SOLVE, sources::END_SOLVE].iter().for_each(|stage| add(stage, &arrays));
+            let equation = operation.solves().expect("a solve");
+            [sources::begin(equation), sources::END_SOLVE].iter().for_each(|stage| add(stage, &arrays));
         }
     }
     for (stage, arrays) in end_step_stages(scene) {
@@ -100,6 +101,13 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::HeatWalls(Stage::Start),
         Operation::HeatWalls(Stage::Middle),
         Operation::EstimateMiddle,
+        Operation::ImplicitViscosity,
+        Operation::ImplicitKick,
+        Operation::PredictImplicit,
+        Operation::AddMeanPressure,
+        Operation::RelaxPressure,
+        Operation::MeanKickByFit,
+        Operation::MeanKickByAdjoint,
         Operation::Viscosity(Stage::Start),
         Operation::Viscosity(Stage::Middle),
         Operation::Predict,
