@@ -63,7 +63,7 @@ impl Operation {
             Gravity | HoldWalls => Effect::Gravity,
             Buoyancy => Effect::Buoyancy,
             Viscosity(_) | EstimateMiddle => Effect::Viscosity,
-            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | ConjugateGradient
+            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | Coarsen | ConjugateGradient
             | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => Effect::Pressure,
             FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast => {
                 Effect::Pressure

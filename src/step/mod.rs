@@ -22,6 +22,7 @@
 
 mod buffer;
 mod carried;
+pub mod coarse;
 mod effect;
 mod grid;
 mod operation;
