@@ -1,11 +1,9 @@
-//! What a step of points that move costs per point, from 1e3 to 1e5 points of the two collapses: the pressure solve apart, what a
-//! row of the reports takes on the host, and the memory that the arrays take beside what the plan says.
+//! Points that move: particle steps a CPU second of the collapsing column, at the counts that MPS-Basic was measured at.
 //!
-//! Prints a table in Markdown: the CPU engine in f32 and f64 on one thread, and the GPU in f32 where there is one. Of every
-//! operation the least time of some steps counts, so that other work on the machine disturbs little. With an argument,
-//! `cargo bench --bench moving -- 1e4`, no more points than that.
+//! Prints a table in Markdown: `cargo bench --bench moving`. With arguments a table of one's own, a case, the end of the run in s,
+//! points along the column's breadth, then keys to set: `cargo bench --bench moving -- dam_break_mps 0.02 38,78`. `--operations`
+//! times each operation as well, on the GPU too.
 
-use std::collections::BTreeMap;
 use std::env;
 use std::error::Error;
 use std::path::Path;
@@ -19,23 +17,55 @@ use stillpoint::cpu;
 use stillpoint::engine::Engine;
 use stillpoint::gpu::{Gpu, GpuEngine, Precision, adapter};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::simulate;
-use stillpoint::step::Operation;
+use stillpoint::simulation::{Diagnostics, Observer, Stop, simulate};
 
-/// The cases, and the length of a step over the time in which gravity moves a point by its spacing.
-const CASES: [(&str, f64); 2] = [("dam_break_mps", 0.02), ("dam_break_shifted", 0.1)];
-/// The breadths of the column in spacings: it is twice as high, in a tank of five breadths by three.
-const BREADTHS: [u32; 3] = [22, 70, 220];
-/// Steps before those that are timed, and those.
-const BEFORE: u32 = 2;
-const TIMED: u32 = 4;
-/// Reports whose time is taken.
-const REPORTS: u32 = 8;
+/// m
+const BREADTH: f64 = 0.05715;
+/// Step of MPS over the spacing, as in its case, s/m.
+const STEP: f64 = 0.0005 / 0.0028575;
+const END: f64 = 0.03;
+
+/// Who computes.
+#[derive(Clone, Copy)]
+enum Computes {
+    Cpu64,
+    Cpu32,
+    Gpu32,
+    Gpu64,
+}
+
+impl Computes {
+    const ALL: [Self; 4] = [Computes::Cpu64, Computes::Cpu32, Computes::Gpu32, Computes::Gpu64];
+
+    fn name(self) -> &'static str {
+        match self {
+            Computes::Cpu64 => "cpu f64",
+            Computes::Cpu32 => "cpu f32",
+            Computes::Gpu32 => "gpu f32",
+            Computes::Gpu64 => "gpu f64",
+        }
+    }
+
+    fn open(self, scene: &Arc<Scene>, timed: bool) -> Result<Box<dyn Engine>, Box<dyn Error>> {
+        let gpu = |precision: Precision| -> Result<Box<dyn Engine>, Box<dyn Error>> {
+            let adapter = adapter::choose(None)?;
+            let gpu = if timed { Gpu::open_timed(&adapter, precision)? } else { Gpu::open(&adapter, precision)? };
+            Ok(Box::new(GpuEngine::new(Arc::clone(scene), gpu)?))
+        };
+        match self {
+            Computes::Cpu64 => Ok(cpu::double(scene)?),
+            Computes::Cpu32 => Ok(cpu::single(scene)?),
+            Computes::Gpu32 => gpu(Precision::Single),
+            Computes::Gpu64 => gpu(Precision::Double),
+        }
+    }
+}
 
 fn main() -> ExitCode {
     // Cargo adds --bench.
-    let most = env::args().skip(1).find_map(|argument| argument.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
-    match table(most) {
+    let (flags, arguments): (Vec<_>, Vec<_>) = env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let operations = flags.iter().any(|flag| flag == "--operations");
+    match table(&arguments, operations) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -44,101 +74,88 @@ fn main() -> ExitCode {
     }
 }
 
-fn table(most: f64) -> Result<(), Box<dyn Error>> {
+fn table(arguments: &[String], operations: bool) -> Result<(), Box<dyn Error>> {
     ThreadPoolBuilder::new().num_threads(1).build_global()?;
-    let candidate = adapter::choose(None).ok();
-    println!(
-        "| case | engine | points | ns a point and step | its solve | iterations | ns a point and report | bytes a point, planned | held |"
-    );
-    println!("|---|---|---|---|---|---|---|---|---|");
-    for (name, share) in CASES {
-        for breadth in BREADTHS.into_iter().filter(|&breadth| 2.0 * f64::from(breadth).powi(2) < 1.1 * most) {
-            let scene = collapse(name, share, breadth, REPORTS)?;
-            let dt = scene.case.time.step.expect("a step");
-            for (engine, mut opened) in [("CPU, f64", cpu::double(&scene)?), ("CPU, f32", cpu::single(&scene)?)] {
-                let report = if engine == "CPU, f64" { Some(report(name, share, breadth)?) } else { None };
-                row(name, engine, &scene, opened.as_mut(), dt, report, None)?;
-            }
-            if let Some(candidate) = &candidate {
-                let gpu = Gpu::open_timed(candidate, Precision::Single)?;
-                let mut opened = GpuEngine::new(Arc::clone(&scene), gpu)?;
-                let held = opened.allocated_bytes();
-                row(name, "GPU, f32", &scene, &mut opened, dt, None, Some(held))?;
+    println!("| case | points | engine | steps | iterations a step | particle steps a CPU second |");
+    println!("|---|---|---|---|---|---|");
+    let [case, end, counts, keys @ ..] = arguments else {
+        for (case, counts) in [("dam_break_mps", [38, 78]), ("dam_break_shifted", [48, 88])] {
+            for count in counts {
+                for computes in Computes::ALL {
+                    println!("{}", row(case, count, computes, END, &[], operations)?);
+                }
             }
         }
-    }
-    if let Some(candidate) = candidate {
-        println!("\nGPU: {}", candidate.info.name);
+        return Ok(());
+    };
+    let engines = keys.iter().find_map(|key| key.strip_prefix("engine="));
+    let keys: Vec<String> = keys.iter().filter(|key| !key.starts_with("engine=")).cloned().collect();
+    for count in counts.split(',') {
+        for computes in
+            Computes::ALL.into_iter().filter(|computes| engines.is_none_or(|name| computes.name().contains(name)))
+        {
+            println!("{}", row(case, count.parse()?, computes, end.parse()?, &keys, operations)?);
+        }
     }
     Ok(())
 }
 
-/// The column of so many spacings, with steps enough for so many reports.
-fn collapse(name: &str, share: f64, breadth: u32, reports: u32) -> Result<Arc<Scene>, Box<dyn Error>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).with_extension("toml");
-    let spacing = 0.05715 / f64::from(breadth);
-    let step = share * (spacing / 9.81).sqrt();
-    let changes = [
-        format!("cloud.spacing={spacing:?}"),
-        format!("time.step={step:?}"),
-        format!("time.end={:?}", step * f64::from(reports)),
-    ];
-    Ok(Arc::new(Scene::build(&Case::load(&path, &changes)?)?))
+/// CPU seconds between the first row of diagnostics after the beginning, when every kernel has been compiled, and the last.
+#[derive(Default)]
+struct Stretch {
+    first: Option<(u64, ProcessTime)>,
+    steps: u64,
+    seconds: f64,
 }
 
+impl Observer for Stretch {
+    fn report(&mut self, row: &Diagnostics) {
+        if row.step == 0 {
+            return;
+        }
+        let (step, started) = *self.first.get_or_insert_with(|| (row.step, ProcessTime::now()));
+        (self.steps, self.seconds) = (row.step - step, started.elapsed().as_secs_f64());
+    }
+
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// Runs one case. Measuring every tenth step counts too.
 fn row(
     name: &str,
-    label: &str,
-    scene: &Scene,
-    engine: &mut dyn Engine,
-    dt: f64,
-    report: Option<f64>,
-    held: Option<u64>,
-) -> Result<(), Box<dyn Error>> {
-    let clock = scene.clock(dt);
-    engine.advance(BEFORE, &clock)?;
-    let (mut least, mut iterations) = (BTreeMap::<Operation, f64>::new(), 0);
-    for _ in 0..TIMED {
-        let before = engine.seconds();
-        iterations += engine.advance(1, &clock)?.iterations;
-        for (operation, after) in engine.seconds() {
-            let spent = after - before.get(&operation).copied().unwrap_or(0.0);
-            let least = least.entry(operation).or_insert(f64::INFINITY);
-            *least = least.min(spent);
-        }
+    count: u32,
+    computes: Computes,
+    end: f64,
+    keys: &[String],
+    operations: bool,
+) -> Result<String, Box<dyn Error>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).with_extension("toml");
+    let spacing = BREADTH / f64::from(count);
+    let mut set = vec![format!("cloud.spacing={spacing:?}"), format!("time.end={end:?}")];
+    if name == "dam_break_mps" {
+        set.push(format!("time.step={:?}", STEP * spacing));
     }
-    let solves = |operation: &Operation| matches!(operation, Operation::ConjugateGradient | Operation::Bicgstab);
-    let nano = |solve: bool| {
-        let taken: f64 = least.iter().filter(|(operation, _)| solves(operation) == solve).map(|(_, taken)| taken).sum();
-        1e9 * taken / scene.sizes.points as f64
-    };
+    set.extend_from_slice(keys);
+    let scene = Arc::new(Scene::build(&Case::load(&path, &set)?)?);
+    let mut engine = computes.open(&scene, operations)?;
+    let mut stretch = Stretch::default();
+    let outcome = simulate(&scene, engine.as_mut(), &mut stretch)?;
+    if outcome.stop != Stop::End {
+        return Err(format!("{name}: {:?}", outcome.stop).into());
+    }
     let points = scene.sizes.points;
-    let real = if label.ends_with("64") { 8 } else { 4 };
-    let planned = scene.plan.total_bytes(&scene.sizes, real) as f64 / points as f64;
-    let [report, held] = [report, held.map(|held| held as f64 / points as f64)]
-        .map(|value| value.map_or(String::new(), |value| format!("{value:.0}")));
-    println!(
-        "| {name} | {label} | {points} | {:.0} | {:.0} | {} | {report} | {planned:.0} | {held} |",
-        nano(false),
-        nano(true),
-        iterations / u64::from(TIMED)
-    );
-    Ok(())
-}
-
-/// CPU time of a row of the reports, ns a point: that of a run with a row after every step less that of a run with one row.
-fn report(name: &str, share: f64, breadth: u32) -> Result<f64, Box<dyn Error>> {
-    let mut scene = Scene::clone(&*collapse(name, share, breadth, REPORTS)?);
-    // Solves that take no time worth mentioning.
-    scene.constants.tolerance = 1.0;
-    let mut taken = |every: u32| -> Result<f64, Box<dyn Error>> {
-        scene.case.output.report_every = every;
-        let shared = Arc::new(scene.clone());
-        let mut engine = cpu::double(&shared)?;
-        let started = ProcessTime::now();
-        simulate(&shared, engine.as_mut(), &mut ())?;
-        Ok(started.elapsed().as_secs_f64())
-    };
-    let seconds = (taken(1)? - taken(REPORTS)?) / f64::from(REPORTS - 1);
-    Ok(1e9 * seconds / scene.sizes.points as f64)
+    let rate = points as f64 * stretch.steps as f64 / stretch.seconds;
+    let iterations = outcome.iterations as f64 / outcome.steps as f64;
+    if operations {
+        let mut spent: Vec<_> = engine.seconds().into_iter().collect();
+        spent.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let micro = |seconds: f64| 1e6 * seconds / outcome.steps as f64;
+        spent.iter().for_each(|(operation, seconds)| {
+            eprintln!("  {:<28} {:>10.1} us a step", operation.name(), micro(*seconds))
+        });
+        eprintln!("  {:<28} {:>10.1} us a step, by the clock", "stepping", micro(outcome.stepping.as_secs_f64()));
+    }
+    Ok(format!("| {name} | {points} | {} | {} | {iterations:.0} | {rate:.2e} |", computes.name(), outcome.steps))
 }

@@ -18,7 +18,7 @@ use crate::cpu::operations::pressure::Stop;
 use crate::engine::{Clock, Data};
 use crate::exact::Exact;
 use crate::known::Known;
-use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes};
+use crate::step::{BLOCK, Buffer, Element, Grid, Operation, Plan, Points, Sizes, coarse};
 
 /// Everything about a run that does not change while it runs, in f64, on the host.
 #[derive(Debug, Clone)]
@@ -156,6 +156,7 @@ impl Scene {
             open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
+            coarse: if plan.coarsens() { coarse::places(&grid) } else { 0 },
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let mut constants = Constants {

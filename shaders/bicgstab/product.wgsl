@@ -1,4 +1,4 @@
-// BiCGStab, iteration 3 of 11: v = (A + c 1 1^T / N) D^-1 d, and the sum of shadow v over the points.
+// BiCGStab, iteration 3 of 11: v = (A + c 1 1^T / N) M^-1 d, and the sum of shadow v over the points.
 
 #import matrix
 #import sums

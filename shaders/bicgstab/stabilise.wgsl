@@ -1,4 +1,4 @@
-// BiCGStab, iteration 5 of 11: s = r - alpha v, D^-1 s, and its sum over the points.
+// BiCGStab, iteration 5 of 11: p += alpha M^-1 d, s = r - alpha v, s / D, and its sum over the points.
 
 #import sums
 
@@ -7,6 +7,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let i = index_of(group, local);
     var own = real(0.0);
     if i < PADDED {
+        pressure[i] += scalars[ALPHA] * preconditioned[i];
         let s = residual[i] - scalars[ALPHA] * product[i];
         stabilised[i] = s;
         own = s / diagonal[i];

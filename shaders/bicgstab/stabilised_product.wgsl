@@ -1,4 +1,4 @@
-// BiCGStab, iteration 7 of 11: t = (A + c 1 1^T / N) D^-1 s, and the sums of t s and t t over the points.
+// BiCGStab, iteration 7 of 11: t = (A + c 1 1^T / N) M^-1 s, and the sums of t s and t t over the points.
 
 #import matrix
 #import sums

@@ -1,4 +1,4 @@
-// BiCGStab, iteration 9 of 11: p += D^-1 (alpha d + omega s), r = s - omega t.
+// BiCGStab, iteration 9 of 11: p += omega M^-1 s, r = s - omega t.
 // Sums over the points: the squares of r and of D p as densities, and shadow r.
 
 #import density
@@ -10,7 +10,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     var own = sums();
     if i < PADDED {
         let omega = scalars[OMEGA];
-        let p = pressure[i] + (scalars[ALPHA] * direction[i] + omega * stabilised[i]) / diagonal[i];
+        let p = pressure[i] + omega * preconditioned[i];
         let r = stabilised[i] - omega * stabilised_product[i];
         pressure[i] = p;
         residual[i] = r;

@@ -19,10 +19,18 @@ fn set_extent(slot: u32, extent: vec2<u32>) {
 }
 
 fn open_phase(phase: u32) {
-    let all = vec2<u32>(POINTS_EXTENT_X, POINTS_EXTENT_Y);
     let none = vec2<u32>(0u, 0u);
-    set_extent(EXTENT_CHECK, select(none, all, phase == PHASE_CHECKING));
-    set_extent(EXTENT_ITERATE, select(none, all, phase == PHASE_ITERATING));
+    let one = vec2<u32>(1u, 1u);
+    let checks = phase == PHASE_CHECKING;
+    let iterates = phase == PHASE_ITERATING;
+    set_extent(EXTENT_CHECK, select(none, POINTS_EXTENT, checks));
+    set_extent(EXTENT_CHECK_ONCE, select(none, one, checks));
+    set_extent(EXTENT_CHECK_CELLS, select(none, CELLS_EXTENT, checks));
+    set_extent(EXTENT_CHECK_FOURS, select(none, FOURS_EXTENT, checks));
+    set_extent(EXTENT_ITERATE, select(none, POINTS_EXTENT, iterates));
+    set_extent(EXTENT_ITERATE_ONCE, select(none, one, iterates));
+    set_extent(EXTENT_ITERATE_CELLS, select(none, CELLS_EXTENT, iterates));
+    set_extent(EXTENT_ITERATE_FOURS, select(none, FOURS_EXTENT, iterates));
 }
 
 // A solve of this equation begins.

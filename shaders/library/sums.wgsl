@@ -8,6 +8,10 @@ var<workgroup> row_sums: array<sums, GROUP_ROWS>;
 
 // Writes the workgroup's sums. Every invocation calls it, those past the last point with zeros.
 fn add_up(group: u32, local: u32, own: sums) {
+    add_up_to(group, group < GROUPS, local, own);
+}
+
+fn add_up_to(place: u32, counts: bool, local: u32, own: sums) {
     lane_sums[local] = own;
     workgroupBarrier();
     if local < GROUP_ROWS {
@@ -18,11 +22,11 @@ fn add_up(group: u32, local: u32, own: sums) {
         row_sums[local] = sum;
     }
     workgroupBarrier();
-    if local == 0u && group < GROUPS {
+    if local == 0u && counts {
         var sum = sums();
         for (var k = 0u; k < GROUP_ROWS; k++) {
             sum += row_sums[k];
         }
-        partials[group] = sum;
+        partials[place] = sum;
     }
 }

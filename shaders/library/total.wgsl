@@ -5,8 +5,16 @@ var<workgroup> row_totals: array<sums, REDUCER_ROWS>;
 
 // The sums, on invocation 0. Every invocation calls it; `live` false skips the work.
 fn total(local: u32, live: bool) -> sums {
+    return total_of(local, select(0u, GROUPS, live));
+}
+
+// The same with what the cells of a coarse pressure add.
+fn total_with_coarse(local: u32, live: bool) -> sums {
+    return total_of(local, select(0u, GROUPS + COARSE_GROUPS, live));
+}
+
+fn total_of(local: u32, end: u32) -> sums {
     var own = sums();
-    let end = select(0u, GROUPS, live);
     for (var k = local; k < end; k += REDUCERS) {
         own += partials[k];
     }

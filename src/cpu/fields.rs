@@ -102,6 +102,7 @@ fn bound(buffer: Buffer, sizes: &Sizes) -> usize {
         Buffer::FaceCount => sizes.face_capacity + 1,
         Buffer::FluxCount => sizes.flux_capacity + 1,
         Buffer::OpenCount => sizes.open_capacity + 1,
+        Buffer::CoarseCell => sizes.coarse,
         Buffer::CellStart(_) => sizes.points + 1,
         _ => u32::MAX as usize + 1,
     }

@@ -24,7 +24,7 @@ const LONG: Duration = Duration::from_millis(200);
 /// Most dispatches of a submission.
 const MOST_DISPATCHES: usize = 20_000;
 /// Fewest and most iterations that a batch holds for a solve.
-const ITERATIONS: [u32; 2] = [16, 1024];
+const ITERATIONS: [u32; 2] = [8, 1024];
 
 /// Where a run of steps stands.
 #[derive(Debug, Clone, Copy, Default)]
@@ -115,7 +115,7 @@ impl Pace {
         for (equation, budget) in Equation::ALL.into_iter().zip(&mut self.budgets) {
             if report.halted() != Halted::InSolve {
                 let used = report.word_of(Word::MostIterations, equation);
-                budget.iterations = (used + used / 2 + 8).clamp(least, most);
+                budget.iterations = (used + used / 4 + 4).clamp(least, most);
                 budget.rounds = report.word_of(Word::MostStarts, equation).max(1);
             } else if equation == report.equation() {
                 budget.iterations = (2 * budget.iterations).min(most);
@@ -227,7 +227,10 @@ impl Batch<'_> {
                 Extent::Points => shape.points,
                 Extent::Cells => shape.cells,
                 Extent::Iterate if resumed => shape.points,
-                Extent::Check | Extent::Iterate => 0,
+                Extent::IterateOnce if resumed => 1,
+                Extent::IterateCells if resumed => shape.cells,
+                Extent::IterateFours if resumed => shape.fours,
+                _ => 0,
             };
             let [x, y] = Shape::extent(groups);
             table.extend([x, y, 1]);

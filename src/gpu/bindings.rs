@@ -34,10 +34,14 @@ pub(super) enum Own {
     Tally,
     /// Points a tile of cells.
     TileSums,
+    /// Of the coarse pressure, at all places: its right side, its solution, and that smoothed.
+    CoarseRight,
+    CoarseValue,
+    CoarseSmoothed,
 }
 
 impl Own {
-    pub const ALL: [Own; 8] = [
+    pub const ALL: [Own; 11] = [
         Own::Control,
         Own::Dispatches,
         Own::Clock,
@@ -46,6 +50,9 @@ impl Own {
         Own::Maxima,
         Own::Tally,
         Own::TileSums,
+        Own::CoarseRight,
+        Own::CoarseValue,
+        Own::CoarseSmoothed,
     ];
 
     pub fn name(self) -> &'static str {
@@ -58,6 +65,9 @@ impl Own {
             Own::Maxima => "maxima",
             Own::Tally => "tally",
             Own::TileSums => "tile_sums",
+            Own::CoarseRight => "coarse_right",
+            Own::CoarseValue => "coarse_value",
+            Own::CoarseSmoothed => "coarse_smoothed",
         }
     }
 
@@ -65,7 +75,7 @@ impl Own {
         match self {
             Own::Control | Own::Tally => "atomic<u32>",
             Own::Dispatches | Own::TileSums => "u32",
-            Own::Clock | Own::Scalars => "real",
+            Own::Clock | Own::Scalars | Own::CoarseRight | Own::CoarseValue | Own::CoarseSmoothed => "real",
             Own::Partials => "sums",
             Own::Maxima => "vector",
         }
@@ -184,6 +194,7 @@ fn interleaved(buffer: Buffer) -> bool {
         open_capacity: 0,
         cells: 0,
         coefficients: 0,
+        coarse: 0,
     };
     buffer.per_point(&none) == Some(2)
 }

@@ -127,10 +127,16 @@ numbered! {
     Extent {
         Points = "EXTENT_POINTS",
         Cells = "EXTENT_CELLS",
-        /// Points, while a solve recomputes its residual.
+        /// Points, one workgroup, cells and cells of four cells, while a solve recomputes its residual.
         Check = "EXTENT_CHECK",
-        /// Points, while a solve iterates.
+        CheckOnce = "EXTENT_CHECK_ONCE",
+        CheckCells = "EXTENT_CHECK_CELLS",
+        CheckFours = "EXTENT_CHECK_FOURS",
+        /// The same while a solve iterates.
         Iterate = "EXTENT_ITERATE",
+        IterateOnce = "EXTENT_ITERATE_ONCE",
+        IterateCells = "EXTENT_ITERATE_CELLS",
+        IterateFours = "EXTENT_ITERATE_FOURS",
     }
 }
 

@@ -38,7 +38,10 @@ impl Memory {
                 Own::Dispatches => (12 * Extent::NAMES.len(), BufferUsages::INDIRECT),
                 Own::Clock => (real * Time::NAMES.len(), BufferUsages::empty()),
                 Own::Scalars => (real * Scalar::NAMES.len(), BufferUsages::empty()),
-                Own::Partials => (4 * real * groups, BufferUsages::empty()),
+                Own::Partials => (4 * real * (groups + Shape::coarse(scene) as usize), BufferUsages::empty()),
+                Own::CoarseRight | Own::CoarseValue | Own::CoarseSmoothed => {
+                    (real * scene.sizes.coarse.max(1), BufferUsages::empty())
+                }
                 Own::Maxima => (2 * real * groups, BufferUsages::empty()),
                 Own::Tally => (4 * (scene.sizes.cells + 1), BufferUsages::empty()),
                 Own::TileSums => (4 * shape.cells as usize, BufferUsages::empty()),

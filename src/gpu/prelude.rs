@@ -5,12 +5,14 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
-use crate::cpu::operations::implicit_viscosity;
+use crate::case::PressureForm;
 use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
 use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
 use crate::cpu::operations::pressure::Stop;
+use crate::cpu::operations::{coarse, implicit_viscosity};
 use crate::scene::Scene;
+use crate::step::coarse::{Level, levels};
 use crate::step::{BLOCK, Equation, PRESSURE_RELAXATION, Rung};
 
 /// Invocations of a workgroup over points or cells, and those that add up its sum in the middle.
@@ -55,17 +57,27 @@ impl Precision {
     }
 }
 
-/// Workgroups over points and over cells.
+/// Workgroups over points, over cells, and over cells of four cells where there is a coarse pressure.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     pub points: u32,
     pub cells: u32,
+    pub fours: u32,
 }
 
 impl Shape {
     pub fn new(scene: &Scene) -> Self {
         let groups = |count: usize| count.div_ceil(GROUP as usize) as u32;
-        Self { points: groups(scene.padded()), cells: groups(scene.sizes.cells + 1) }
+        let fours = match levels(&scene.constants.grid).get(1) {
+            Some(level) if scene.plan.coarsens() => groups(level.columns * level.rows),
+            _ => 0,
+        };
+        Self { points: groups(scene.padded()), cells: groups(scene.sizes.cells + 1), fours }
+    }
+
+    /// Workgroups whose sums stand behind those over the points.
+    pub fn coarse(scene: &Scene) -> u32 {
+        if scene.plan.coarsens() { Self::new(scene).cells } else { 0 }
     }
 
     /// The same along x and y.
@@ -80,7 +92,6 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     let shape = Shape::new(scene);
     let mut text =
         format!("alias real = {};\nalias vector = vec2<real>;\nalias sums = vec4<real>;\n", precision.name());
-    let extent = Shape::extent(shape.points);
     let forced = if scene.plan.forces_reach_walls() { sizes.points } else { sizes.interior };
     let whole: &[(&str, usize)] = &[
         ("BLOCK", BLOCK),
@@ -119,8 +130,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("REDUCERS", REDUCERS as usize),
         ("REDUCER_ROWS", REDUCER_ROWS as usize),
         ("MOST_GROUPS", MOST_GROUPS as usize),
-        ("POINTS_EXTENT_X", extent[0] as usize),
-        ("POINTS_EXTENT_Y", extent[1] as usize),
+        ("COARSE_GROUPS", Shape::coarse(scene) as usize),
+        ("PLACES", sizes.coarse),
         ("NO_POINT", NO_POINT as usize),
     ];
     let real: &[(&str, f64)] = &[
@@ -148,6 +159,9 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("DIMENSIONS", DIMENSIONS),
         ("PIVOT_THRESHOLD", PIVOT_THRESHOLD),
         ("PRESSURE_RELAXATION", PRESSURE_RELAXATION),
+        ("COARSE_SCALE", coarse::SCALE),
+        ("COARSE_DAMPING", coarse::DAMPING),
+        ("COARSE_SIGN", if scene.plan.form == Some(PressureForm::Integral) { 1.0 } else { -1.0 }),
         ("STOP_FLOOR", constants.floor),
         ("VISCOUS_FLOOR", Stop::CONSERVATIVE_FLOOR),
         ("DYNAMIC_VISCOSITY", constants.density * constants.viscosity),
@@ -176,6 +190,27 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     line(&mut text, format_args!("const SINGULAR: bool = {};", constants.singular));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
+    for (name, groups) in
+        [("POINTS_EXTENT", shape.points), ("CELLS_EXTENT", shape.cells), ("FOURS_EXTENT", shape.fours)]
+    {
+        let [x, y] = Shape::extent(groups);
+        line(&mut text, format_args!("const {name} = vec2<u32>({x}u, {y}u);"));
+    }
+    if scene.plan.coarsens() {
+        let levels = levels(&constants.grid);
+        line(&mut text, format_args!("const LEVELS: u32 = {}u;", levels.len()));
+        let of = |number: fn(&Level) -> usize| {
+            let numbers: Vec<String> = levels.iter().map(|level| format!("{}u", number(level))).collect();
+            numbers.join(", ")
+        };
+        for (name, numbers) in [
+            ("LEVEL_FIRST", of(|level| level.first)),
+            ("LEVEL_COLUMNS", of(|level| level.columns)),
+            ("LEVEL_ROWS", of(|level| level.rows)),
+        ] {
+            line(&mut text, format_args!("const {name} = array<u32, LEVELS>({numbers});"));
+        }
+    }
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");
     line(&mut text, format_args!("const WIDER = array<real, WIDER_STEPS>({wider});"));
     for names in [Word::NAMES, Halted::NAMES, Phase::NAMES, Ended::NAMES, Scalar::NAMES, Time::NAMES, Extent::NAMES] {

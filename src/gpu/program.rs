@@ -45,7 +45,7 @@ impl Program {
             let mut all = |stages: &[Stage]| -> Result<Vec<Launch>, EngineError> {
                 stages.iter().map(|stage| compiler.launch(stage, &arrays)).collect()
             };
-            let part = match sources::stages(operation) {
+            let part = match sources::stages(operation, &scene.plan) {
                 Stages::Once(stages) => Part::Once(all(&stages)?),
                 Stages::Solve { check, iterate } => {
                     let (check, iterate) = (all(&check)?, all(&iterate)?);

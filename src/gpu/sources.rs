@@ -5,7 +5,7 @@ use super::unrolled;
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
-use crate::step::{Carried, Equation, Operation, Stage as Part};
+use crate::step::{Carried, Equation, Operation, Plan, Stage as Part};
 
 /// One kernel.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +64,7 @@ pub(super) fn begin(equation: Equation) -> Stage {
 }
 
 /// The kernels of an operation.
-pub(super) fn stages(operation: Operation) -> Stages {
+pub(super) fn stages(operation: Operation, plan: &Plan) -> Stages {
     let once = |stage: Stage| Stages::Once(vec![stage]);
     match operation {
         Operation::BuildCells(_) => Stages::Once(vec![
@@ -129,42 +129,13 @@ pub(super) fn stages(operation: Operation) -> Stages {
         Operation::DivergenceByFit => once(stage!("divergence_by_fit", Points)),
         Operation::AddWallFlux => once(stage!("add_wall_flux", Points)),
         Operation::CollocatedSource => once(stage!("collocated_source", Points)),
-        Operation::ConjugateGradient => Stages::Solve {
-            check: vec![
-                stage!("conjugate_gradient/residual", Check),
-                stage!("conjugate_gradient/mean"),
-                stage!("conjugate_gradient/start", Check),
-                stage!("conjugate_gradient/judge"),
-            ],
-            iterate: vec![
-                stage!("conjugate_gradient/product", Iterate),
-                stage!("conjugate_gradient/alpha"),
-                stage!("conjugate_gradient/update", Iterate),
-                stage!("conjugate_gradient/beta"),
-                stage!("conjugate_gradient/direction", Iterate),
-            ],
-        },
-        Operation::Bicgstab => Stages::Solve {
-            check: vec![
-                stage!("bicgstab/pressure_sum", Check),
-                stage!("bicgstab/check_shift"),
-                stage!("bicgstab/residual", Check),
-                stage!("bicgstab/judge"),
-            ],
-            iterate: vec![
-                stage!("bicgstab/precondition_direction", Iterate),
-                stage!("bicgstab/shift"),
-                stage!("bicgstab/product", Iterate),
-                stage!("bicgstab/alpha"),
-                stage!("bicgstab/stabilise", Iterate),
-                stage!("bicgstab/shift"),
-                stage!("bicgstab/stabilised_product", Iterate),
-                stage!("bicgstab/omega"),
-                stage!("bicgstab/update", Iterate),
-                stage!("bicgstab/beta"),
-                stage!("bicgstab/direction", Iterate),
-            ],
-        },
+        Operation::ConjugateGradient => conjugate_gradient(plan.coarsens()),
+        Operation::Bicgstab => bicgstab(plan.coarsens()),
+        Operation::Coarsen => Stages::Once(vec![
+            stage!("coarsen/place", Cells),
+            stage!("coarsen/finest", Cells),
+            stage!("coarsen/coarser"),
+        ]),
         Operation::DirectSolve => once(stage!("direct_solve")),
         Operation::CorrectByFit => once(stage!("correct_by_fit", Points)),
         Operation::CorrectByAdjoint => once(stage!("correct_by_adjoint", Points)),
@@ -191,6 +162,82 @@ pub(super) fn stages(operation: Operation) -> Stages {
     }
 }
 
+fn conjugate_gradient(coarsens: bool) -> Stages {
+    let mut check = vec![
+        stage!("conjugate_gradient/residual", Check),
+        stage!("conjugate_gradient/mean"),
+        stage!("conjugate_gradient/start", Check),
+    ];
+    let mut iterate = vec![
+        stage!("conjugate_gradient/product", Iterate),
+        stage!("conjugate_gradient/alpha"),
+        stage!("conjugate_gradient/update", Iterate),
+    ];
+    if coarsens {
+        check.extend([
+            stage!("conjugate_gradient/restrict", CheckCells),
+            stage!("conjugate_gradient/down", CheckFours),
+            stage!("conjugate_gradient/coarser", CheckOnce),
+            stage!("conjugate_gradient/up", CheckCells),
+            stage!("conjugate_gradient/add_coarse", Check),
+        ]);
+        iterate.extend([
+            stage!("conjugate_gradient/restrict", IterateCells),
+            stage!("conjugate_gradient/down", IterateFours),
+            stage!("conjugate_gradient/coarser", IterateOnce),
+            stage!("conjugate_gradient/up", IterateCells),
+        ]);
+    }
+    check.push(stage!("conjugate_gradient/judge"));
+    iterate.extend([stage!("conjugate_gradient/beta"), stage!("conjugate_gradient/direction", Iterate)]);
+    Stages::Solve { check, iterate }
+}
+
+/// With a coarse pressure there is no rank-one shift: the pressure is held somewhere.
+fn bicgstab(coarsens: bool) -> Stages {
+    let check = vec![
+        stage!("bicgstab/pressure_sum", Check),
+        stage!("bicgstab/check_shift"),
+        stage!("bicgstab/residual", Check),
+        stage!("bicgstab/judge"),
+    ];
+    let shift = stage!("bicgstab/shift");
+    let cycle = [
+        stage!("bicgstab/down", IterateFours),
+        stage!("bicgstab/coarser", IterateOnce),
+        stage!("bicgstab/up", IterateCells),
+    ];
+    let mut iterate = Vec::new();
+    if coarsens {
+        iterate.push(stage!("bicgstab/restrict_direction", IterateCells));
+        iterate.extend(cycle);
+    }
+    iterate.push(stage!("bicgstab/precondition_direction", Iterate));
+    if !coarsens {
+        iterate.push(shift);
+    }
+    iterate.extend([
+        stage!("bicgstab/product", Iterate),
+        stage!("bicgstab/alpha"),
+        stage!("bicgstab/stabilise", Iterate),
+    ]);
+    if coarsens {
+        iterate.push(stage!("bicgstab/restrict_stabilised", IterateCells));
+        iterate.extend(cycle);
+        iterate.push(stage!("bicgstab/add_coarse", Iterate));
+    } else {
+        iterate.push(shift);
+    }
+    iterate.extend([
+        stage!("bicgstab/stabilised_product", Iterate),
+        stage!("bicgstab/omega"),
+        stage!("bicgstab/update", Iterate),
+        stage!("bicgstab/beta"),
+        stage!("bicgstab/direction", Iterate),
+    ]);
+    Stages::Solve { check, iterate }
+}
+
 /// The text behind `#import name`; a choice of the case picks among files of one meaning.
 fn library(name: &str, scene: &Scene) -> Option<&'static str> {
     macro_rules! text {
@@ -203,6 +250,15 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
     Some(match name {
         "points" => text!("points"),
         "cells" => text!("cells"),
+        "coarse_grids" => text!("coarse/grids"),
+        "coarse_store" => text!("coarse/store"),
+        "coarse_cycle" => text!("coarse/cycle"),
+        "coarse_restrict" => text!("coarse/restrict"),
+        "coarse_down" => text!("coarse/down"),
+        "coarse_coarser" => text!("coarse/coarser"),
+        "coarse_up" => text!("coarse/up"),
+        "coarse_at" if scene.plan.coarsens() => text!("coarse/at_points"),
+        "coarse_at" => text!("coarse/absent"),
         "search" => text!("search"),
         "normal_matrix" => text!("normal_matrix"),
         "normal_equations" => text!("normal_equations"),

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::coarse::ENTRIES;
 use super::{BLOCK, Carried, Sizes};
 use crate::cpu::operations::moments::entries;
 
@@ -136,6 +137,11 @@ pub enum Buffer {
     Surface,
     /// How far each point moves beside `dt u*`, m; interleaved.
     Displacement,
+    /// The pressure equation over cells, that of points that move alone. Which place of the grids each point's cell has; 0 where the
+    /// pressure is held.
+    CoarseCell,
+    /// Its rows, number by number: of the nine cells around, then what a smoothing step multiplies with; ten times all places.
+    CoarseMatrix,
     /// A known field, no unit.
     Field,
     /// Its mean over neighbours, no unit; its gradient, 1/m, interleaved; its Laplacian, 1/m^2.
@@ -217,6 +223,8 @@ impl Buffer {
             Buffer::Crowding => ("crowding", None),
             Buffer::Surface => ("surface", None),
             Buffer::Displacement => ("displacement", None),
+            Buffer::CoarseCell => ("coarse_cell", None),
+            Buffer::CoarseMatrix => ("coarse_matrix", None),
             Buffer::Field => ("field", None),
             Buffer::FieldAverage => ("field_average", None),
             Buffer::FieldGradient => ("field_gradient", None),
@@ -240,6 +248,7 @@ impl Buffer {
             | Buffer::FluxPoints
             | Buffer::FluxCount
             | Buffer::Surface
+            | Buffer::CoarseCell
             | Buffer::OpenPoints
             | Buffer::OpenCount
             | Buffer::Outlet
@@ -248,10 +257,10 @@ impl Buffer {
         }
     }
 
-    /// Numbers a point; `None` for the cell list's starts, which have one a cell.
+    /// Numbers a point; `None` for what has one a cell, or more.
     pub fn per_point(self, sizes: &Sizes) -> Option<usize> {
         Some(match self {
-            Buffer::CellStart(_) => return None,
+            Buffer::CellStart(_) | Buffer::CoarseMatrix => return None,
             Buffer::Position(_)
             | Buffer::Normal
             | Buffer::Velocity
@@ -281,10 +290,11 @@ impl Buffer {
         })
     }
 
-    /// Entries of the array: whole blocks of points, or one a cell and one more.
+    /// Entries of the array: whole blocks of points, one a cell and one more, or so many a place of the coarse grids.
     pub fn length(self, sizes: &Sizes) -> usize {
         match self.per_point(sizes) {
             Some(count) => sizes.points.div_ceil(BLOCK) * BLOCK * count,
+            None if self == Buffer::CoarseMatrix => ENTRIES * sizes.coarse,
             None => sizes.cells + 1,
         }
     }

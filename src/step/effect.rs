@@ -64,8 +64,10 @@ impl Operation {
             Buoyancy => Effect::Buoyancy,
             Viscosity(_) | EstimateMiddle | ImplicitViscosity | ImplicitKick => Effect::Viscosity,
             PredictImplicit | AddMeanPressure | RelaxPressure | MeanKickByFit | MeanKickByAdjoint => Effect::Viscosity,
-            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | ConjugateGradient
-            | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => Effect::Pressure,
+            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | Coarsen
+            | ConjugateGradient | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => {
+                Effect::Pressure
+            }
             FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast => {
                 Effect::Pressure
             }

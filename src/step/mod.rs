@@ -34,6 +34,7 @@
 
 mod buffer;
 mod carried;
+pub mod coarse;
 mod effect;
 mod grid;
 mod operation;

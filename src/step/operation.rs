@@ -132,6 +132,8 @@ pub enum Operation {
     AddWallFlux,
     /// Source of the collocated pressure equation: the fitted divergence inside, the normal velocity to be stopped at walls.
     CollocatedSource,
+    /// The pressure matrix of points that move, summed up over cells, then over four of them at a time.
+    Coarsen,
     /// Solves the conservative equation: Jacobi-preconditioned conjugate gradients.
     ConjugateGradient,
     /// Solves either equation: Jacobi-preconditioned BiCGStab with the rank-one shift.
@@ -230,6 +232,7 @@ impl Operation {
             Operation::DivergenceByFit => "divergence_by_fit",
             Operation::AddWallFlux => "add_wall_flux",
             Operation::CollocatedSource => "collocated_source",
+            Operation::Coarsen => "coarsen",
             Operation::ConjugateGradient => "conjugate_gradient",
             Operation::Bicgstab => "bicgstab",
             Operation::DirectSolve => "direct_solve",
@@ -351,6 +354,11 @@ impl Operation {
             // The source is there already: a sum, as the kick of a force is.
             Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
+            Operation::Coarsen => with(plan.matrix(), &[CellStart(standing), CellPoints(standing), Surface]),
+            Operation::ConjugateGradient | Operation::Bicgstab if plan.coarsens() => {
+                let coarse = [CellStart(standing), CellPoints(standing), CoarseCell, CoarseMatrix];
+                with(with(plan.matrix(), &[Diagonal, Volume, Source]), &coarse)
+            }
             Operation::ConjugateGradient | Operation::Bicgstab | Operation::DirectSolve => {
                 with(plan.matrix(), &[Diagonal, Volume, Source])
             }
@@ -434,6 +442,7 @@ impl Operation {
             Operation::FittedViscosity => vec![Kick],
             Operation::FindSurface => vec![Crowding, Surface],
             Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source, Pressure],
+            Operation::Coarsen => vec![CoarseCell, CoarseMatrix],
             Operation::ShiftPoints => vec![Projected, Displacement],
             Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Pressure, Projected, Displacement],
             Operation::DisplacePoints => vec![Position(Points::Standing), Projected],
@@ -472,6 +481,7 @@ impl Operation {
             | Operation::FactoriseMirrored
             | Operation::FitPredicted
             | Operation::FitMirrored
+            | Operation::Coarsen
             | Operation::DirectSolve => self.writes(),
             Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source],
             Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Displacement],

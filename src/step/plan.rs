@@ -24,6 +24,8 @@ pub struct Sizes {
     pub cells: usize,
     /// Coefficients of a fit.
     pub coefficients: usize,
+    /// Places of the grids of the coarse pressure; 0 without it.
+    pub coarse: usize,
 }
 
 /// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.
@@ -57,6 +59,14 @@ fn solve_by(solver: Solver) -> Operation {
         Solver::ConjugateGradient => Operation::ConjugateGradient,
         Solver::Bicgstab => Operation::Bicgstab,
         Solver::Direct => Operation::DirectSolve,
+    }
+}
+
+/// A solve that a coarse pressure helps along. The direct one needs no help.
+fn coarse_solve(solver: Solver) -> Vec<Operation> {
+    match solver {
+        Solver::Direct => vec![Operation::DirectSolve],
+        iterative => vec![Operation::Coarsen, solve_by(iterative)],
     }
 }
 
@@ -189,15 +199,13 @@ impl Plan {
             if effects.viscosity.is_some() {
                 kick.push(AssembleIntegralLaplacian);
             }
-            kick.extend([AssembleDensity, solve_by(pressure.solver()), CorrectByLeast]);
+            kick.push(AssembleDensity);
+            kick.extend(coarse_solve(pressure.solver()));
+            kick.push(CorrectByLeast);
         } else {
-            kick.extend([
-                FactoriseMirrored,
-                FitPredicted,
-                AssembleMirrored,
-                solve_by(pressure.solver()),
-                CorrectMirrored,
-            ]);
+            kick.extend([FactoriseMirrored, FitPredicted, AssembleMirrored]);
+            kick.extend(coarse_solve(pressure.solver()));
+            kick.push(CorrectMirrored);
             if motion == Motion::Shifted || effects.viscosity.is_some() {
                 kick.push(FitMirrored);
             }
@@ -224,6 +232,11 @@ impl Plan {
     /// True where walls mirror the fluid; else they are made of points.
     pub fn mirrors(&self) -> bool {
         self.moves() && self.form == Some(PressureForm::Collocated)
+    }
+
+    /// True where a coarse pressure helps the solver.
+    pub fn coarsens(&self) -> bool {
+        self.kick.contains(&Operation::Coarsen)
     }
 
     /// True where the points stay where they have moved to.

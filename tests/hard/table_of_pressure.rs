@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use stillpoint::cpu::operations::bicgstab;
+use stillpoint::cpu::operations::coarse::Nothing;
 use stillpoint::cpu::operations::conjugate_gradient;
 use stillpoint::cpu::operations::pressure::{Rows, Stop};
 use stillpoint::cpu::real::{Pack, Real};
@@ -123,14 +124,14 @@ fn breakdowns() -> Vec<Row> {
         let work =
             bicgstab::Work { residual, direction, product, shadow, stabilised, stabilised_product, preconditioned };
         let mut pressure = vector();
-        let info = bicgstab::solve(&Small(matrix), &ones, 2, 0.0, source, stop, work, &mut pressure);
+        let info = bicgstab::solve(&Small(matrix), &mut Nothing, &ones, 2, 0.0, source, stop, work, &mut pressure);
         (info, pressure)
     };
     let gradients = |matrix: [[f64; 2]; 2], source: &[f64]| {
         let (mut residual, mut direction, mut product, mut pressure) = (vector(), vector(), vector(), vector());
         let work =
             conjugate_gradient::Work { residual: &mut residual, direction: &mut direction, product: &mut product };
-        let info = conjugate_gradient::solve(&Small(matrix), &ones, 2, source, stop, work, &mut pressure);
+        let info = conjugate_gradient::solve(&Small(matrix), &mut Nothing, &ones, 2, source, stop, work, &mut pressure);
         (info, pressure)
     };
     let row =

@@ -108,7 +108,10 @@ pub fn entries(scene: &Scene, buffer: Buffer) -> impl Iterator<Item = (usize, us
         Some(width @ 1..=2) => entry / width,
         Some(width) => entry / (BLOCK * width) * BLOCK + entry % BLOCK,
     };
-    let count = if width.is_some() { sizes.points } else { sizes.cells + 1 };
+    let count = match width {
+        Some(_) => sizes.points,
+        None => buffer.length(&sizes),
+    };
     (0..buffer.length(&sizes)).map(move |entry| (entry, owner(entry))).filter(move |&(_, owner)| owner < count)
 }
 

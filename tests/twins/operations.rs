@@ -84,6 +84,7 @@ fn made_anew(operation: Operation) -> Vec<Buffer> {
         | Operation::Divergence
         | Operation::DivergenceByFit
         | Operation::CollocatedSource
+        | Operation::Coarsen
         | Operation::DirectSolve
         | Operation::Average
         | Operation::Gradient

@@ -7,7 +7,8 @@ fn product_of(i: u32) -> real {
     let own = unknown(i);
     var sum = real(0.0);
     let first = at(i, 0u, CAPACITY);
-    let last = first + min(neighbour_count[i], CAPACITY) * BLOCK;
+    // Points behind the walls have no pressure, and no row.
+    let last = first + select(0u, min(neighbour_count[i], CAPACITY), i < PRESSURED) * BLOCK;
     for (var slot = first; slot < last; slot += BLOCK) {
         sum += matrix_row[slot] * (own - unknown(neighbours[slot]));
     }

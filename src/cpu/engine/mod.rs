@@ -14,12 +14,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use crate::cpu::fields::Fields;
+use crate::cpu::operations::coarse;
 use crate::cpu::operations::space::Domain;
 use crate::cpu::operations::{conservative, fits, measure};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
 use crate::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, SolveInfo, Spent};
 use crate::scene::Scene;
+use crate::step::coarse::{Level, levels};
 use crate::step::{Buffer, Operation, Points};
 use crate::{with_order, with_space};
 
@@ -45,6 +47,9 @@ pub struct CpuEngine<T: Real> {
     domain: Domain<T>,
     /// Reciprocals of `Volume`: the solvers' loops divide by it in every iteration.
     per_volume: Vec<T>,
+    /// The grids of a coarse pressure and what is computed on them; empty without one.
+    levels: Vec<Level>,
+    coarse: coarse::Vectors<T>,
     direct: Option<DirectSolver>,
     solve: SolveInfo,
     viscous_solve: SolveInfo,
@@ -61,8 +66,23 @@ impl<T: Real> CpuEngine<T> {
         }
         let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
+        let levels = if scene.plan.coarsens() { levels(&scene.constants.grid) } else { Vec::new() };
+        let coarse = coarse::Vectors::new(scene.sizes.coarse);
         let (solve, viscous_solve, spent) = (SolveInfo::default(), SolveInfo::default(), Spent::default());
-        Ok(Self { scene, fields, domain, per_volume, direct: None, solve, viscous_solve, fallbacks: 0, spent })
+        let direct = None;
+        Ok(Self {
+            scene,
+            fields,
+            domain,
+            per_volume,
+            levels,
+            coarse,
+            direct,
+            solve,
+            viscous_solve,
+            fallbacks: 0,
+            spent,
+        })
     }
 
     /// The first entry that is not a number among the fields that carry the flow from step to step, and the source of the
@@ -159,6 +179,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::DivergenceByFit
             | Operation::AddWallFlux
             | Operation::CollocatedSource
+            | Operation::Coarsen
             | Operation::ConjugateGradient
             | Operation::Bicgstab
             | Operation::DirectSolve => self.pressure(operation, clock),

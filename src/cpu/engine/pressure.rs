@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
 use crate::case::PressureForm;
+use crate::cpu::operations::coarse::{self, Coarse, Grids, Nothing};
 use crate::cpu::operations::conservative::{self, Conservative};
 use crate::cpu::operations::moving::density::{self, Symmetric};
 use crate::cpu::operations::pressure::{self, Stop};
@@ -56,6 +57,7 @@ impl<T: Real> CpuEngine<T> {
                     );
                 });
             }
+            Operation::Coarsen => self.coarsen()?,
             Operation::DirectSolve => self.solve_directly()?,
             _ => {
                 let stop = Stop {
@@ -88,12 +90,35 @@ impl<T: Real> CpuEngine<T> {
 
     pub(super) fn symmetric(&self) -> Result<Symmetric<'_, T>, EngineError> {
         let (lists, row) = (self.lists(Points::Standing)?, self.fields.real(Buffer::MatrixRow)?);
-        Ok(Symmetric { lists, row, per_area: T::from_f64(density::per_area(self.scene.constants.lattice)) })
+        let per_area = T::from_f64(density::per_area(self.scene.constants.lattice));
+        Ok(Symmetric { lists, row, pressured: self.scene.sizes.pressured, per_area })
+    }
+
+    fn grids(&self) -> Result<Grids<'_>, EngineError> {
+        Ok(Grids {
+            levels: &self.levels,
+            start: self.fields.index(Buffer::CellStart(Points::Standing))?,
+            sorted: self.fields.index(Buffer::CellPoints(Points::Standing))?,
+        })
+    }
+
+    fn coarsen(&mut self) -> Result<(), EngineError> {
+        let sign = if self.scene.plan.form == Some(PressureForm::Integral) { 1.0 } else { -1.0 };
+        let mut cell = self.fields.take_index(Buffer::CoarseCell)?;
+        with_taken!(self.fields, [matrix = Buffer::CoarseMatrix], {
+            let (lists, row) = (self.lists(Points::Standing)?, self.fields.real(Buffer::MatrixRow)?);
+            let (grids, surface) = (self.grids()?, self.fields.index(Buffer::Surface)?);
+            coarse::place(grids, surface, self.scene.sizes.pressured, &mut cell);
+            coarse::assemble(grids, lists, row, T::from_f64(sign), &cell, &mut matrix);
+        });
+        self.fields.put_index(Buffer::CoarseCell, cell);
+        Ok(())
     }
 
     pub(super) fn conjugate_gradient(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
         let points = self.scene.sizes.points;
-        Ok(with_taken!(
+        let mut vectors = std::mem::take(&mut self.coarse);
+        let info = with_taken!(
             self.fields,
             [
                 pressure = Buffer::Pressure,
@@ -106,19 +131,27 @@ impl<T: Real> CpuEngine<T> {
                 let (residual, direction, product) = (&mut residual[..], &mut direction[..], &mut product[..]);
                 let work = conjugate_gradient::Work { residual, direction, product };
                 if self.scene.plan.form == Some(PressureForm::Integral) {
-                    let matrix = self.symmetric()?;
-                    conjugate_gradient::solve(&matrix, diagonal, points, source, stop, work, &mut pressure)
+                    let (matrix, mut coarse) = (self.symmetric()?, self.coarse(&mut vectors)?);
+                    conjugate_gradient::solve(&matrix, &mut coarse, diagonal, points, source, stop, work, &mut pressure)
                 } else {
-                    let matrix = self.conservative()?;
-                    conjugate_gradient::solve(&matrix, diagonal, points, source, stop, work, &mut pressure)
+                    let (matrix, coarse) = (self.conservative()?, &mut Nothing);
+                    conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
                 }
             }
-        ))
+        );
+        self.coarse = vectors;
+        Ok(info)
+    }
+
+    fn coarse<'a>(&'a self, vectors: &'a mut coarse::Vectors<T>) -> Result<Coarse<'a, T>, EngineError> {
+        let (cell, matrix) = (self.fields.index(Buffer::CoarseCell)?, self.fields.real(Buffer::CoarseMatrix)?);
+        Ok(Coarse { grids: self.grids()?, cell, matrix, vectors })
     }
 
     pub(super) fn bicgstab(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {
         let (points, shift) = (self.scene.sizes.points, self.scene.constants.shift);
-        Ok(with_taken!(
+        let mut vectors = std::mem::take(&mut self.coarse);
+        let info = with_taken!(
             self.fields,
             [
                 pressure = Buffer::Pressure,
@@ -142,14 +175,19 @@ impl<T: Real> CpuEngine<T> {
                     preconditioned: &mut preconditioned,
                 };
                 if self.scene.cells().is_some() {
-                    let matrix = self.conservative()?;
-                    bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
+                    let (matrix, coarse) = (self.conservative()?, &mut Nothing);
+                    bicgstab::solve(&matrix, coarse, diagonal, points, shift, source, stop, work, &mut pressure)
+                } else if self.scene.plan.coarsens() {
+                    let (matrix, mut coarse) = (self.collocated()?, self.coarse(&mut vectors)?);
+                    bicgstab::solve(&matrix, &mut coarse, diagonal, points, shift, source, stop, work, &mut pressure)
                 } else {
-                    let matrix = self.collocated()?;
-                    bicgstab::solve(&matrix, diagonal, points, shift, source, stop, work, &mut pressure)
+                    let (matrix, coarse) = (self.collocated()?, &mut Nothing);
+                    bicgstab::solve(&matrix, coarse, diagonal, points, shift, source, stop, work, &mut pressure)
                 }
             }
-        ))
+        );
+        self.coarse = vectors;
+        Ok(info)
     }
 
     /// Leaves everything as it is where the source is not finite: the fields it came from are, and stop the run.

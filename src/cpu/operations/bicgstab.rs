@@ -1,10 +1,12 @@
-//! Jacobi-preconditioned BiCGStab for a singular pressure matrix of either form.
+//! BiCGStab for a pressure matrix of either form, singular ones too, preconditioned by the diagonal and, of points that move, a
+//! coarse pressure.
 //!
 //! Solves `(A + c 1 1^T / N) p = b`: the rank-one shift makes the system regular whatever the left null vector is, and equals a
 //! Lagrange multiplier on the mean pressure. Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for
 //! Sparse Linear Systems (2003), section 7.4.2.
 
 use crate::cpu::blocks;
+use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -22,8 +24,9 @@ pub struct Work<'a, T> {
 }
 
 /// Solves from the `pressure` at hand. Postcondition as for conjugate gradients.
-pub fn solve<T: Real>(
+pub fn solve<T: Real, C: Correction<T>>(
     matrix: &impl Rows<T>,
+    coarse: &mut C,
     diagonal: &[T],
     points: usize,
     shift: f64,
@@ -56,22 +59,24 @@ pub fn solve<T: Real>(
         }
         direction.copy_from_slice(residual);
         loop {
-            // product = (A + shift) D^-1 direction.
-            shifted_product(matrix, diagonal, points, per_point, direction, scaled, product);
+            // product = (A + shift) M^-1 direction.
+            shifted_product(matrix, coarse, diagonal, points, per_point, direction, scaled, product);
             let [sv] = dots([(shadow, product)]);
             if sv == 0.0 || rho == 0.0 || !sv.is_finite() {
                 monitor.info.outcome = Outcome::BrokeDown;
                 break;
             }
             let alpha = T::Pack::splat(T::from_f64(rho / sv));
-            let [] = blocks::sum_over([&mut *stabilised], &|start, [s]| {
+            // The first half of the iteration: p += alpha M^-1 d.
+            let [] = blocks::sum_over([&mut *stabilised, &mut *pressure], &|start, [s, p]| {
                 for k in (0..s.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
                     (load(residual, i) - alpha * load(product, i)).store(&mut s[k..]);
+                    (load(p, k) + alpha * load(scaled, i)).store(&mut p[k..]);
                 }
                 []
             });
-            shifted_product(matrix, diagonal, points, per_point, stabilised, scaled, stabilised_product);
+            shifted_product(matrix, coarse, diagonal, points, per_point, stabilised, scaled, stabilised_product);
             let [ts, tt] = dots([(stabilised_product, stabilised), (stabilised_product, stabilised_product)]);
             // A zero here means that the first half of the iteration has already arrived.
             let omega = T::from_f64(if tt > 0.0 { ts / tt } else { 0.0 });
@@ -81,8 +86,7 @@ pub fn solve<T: Real>(
                 for k in (0..r.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
                     let diagonal = load(diagonal, i);
-                    let step = alpha * load(direction, i) + omega_pack * load(stabilised, i);
-                    let solution = load(p, k) + step / diagonal;
+                    let solution = load(p, k) + omega_pack * load(scaled, i);
                     let value = load(stabilised, i) - omega_pack * load(stabilised_product, i);
                     solution.store(&mut p[k..]);
                     value.store(&mut r[k..]);
@@ -113,9 +117,10 @@ pub fn solve<T: Real>(
     }
 }
 
-/// `out = (A + c 1 1^T / N) D^-1 x`.
-fn shifted_product<T: Real>(
+/// `scaled = M^-1 x`, `out = (A + c 1 1^T / N) M^-1 x`.
+fn shifted_product<T: Real, C: Correction<T>>(
     matrix: &impl Rows<T>,
+    coarse: &mut C,
     diagonal: &[T],
     points: usize,
     per_point: f64,
@@ -123,11 +128,18 @@ fn shifted_product<T: Real>(
     scaled: &mut [T],
     out: &mut [T],
 ) {
+    if C::PRESENT {
+        coarse.correct(x);
+    }
+    let coarse = &*coarse;
     let [sum] = blocks::sum_over([&mut *scaled], &|start, [z]| {
         let mut sum = T::Pack::zero();
         for k in (0..z.len()).step_by(T::Pack::LANES) {
             let i = start + k;
-            let value = T::Pack::load(&x[i..]) / T::Pack::load(&diagonal[i..]);
+            let mut value = T::Pack::load(&x[i..]) / T::Pack::load(&diagonal[i..]);
+            if C::PRESENT {
+                value += coarse.at(i);
+            }
             value.store(&mut z[k..]);
             sum += value;
         }

@@ -1,4 +1,5 @@
-//! Jacobi-preconditioned conjugate gradients for the conservative pressure equation.
+//! Conjugate gradients for the symmetric pressure equations, preconditioned by the diagonal and, of points that move, a coarse
+//! pressure.
 //!
 //! `K` is symmetric and, where no pressure is prescribed, singular: its null space is the constants, and the right side sums to zero
 //! but for rounding, which is taken out. Residuals are recomputed from the solution before they are believed.
@@ -6,6 +7,7 @@
 //! algorithm 9.1.
 
 use crate::cpu::blocks;
+use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -19,8 +21,9 @@ pub struct Work<'a, T> {
 
 /// Solves `K p = b` from the `pressure` at hand. Postcondition: the recomputed residual is below what `stop` asks for,
 /// or the outcome says why not.
-pub fn solve<T: Real>(
+pub fn solve<T: Real, C: Correction<T>>(
     matrix: &impl Rows<T>,
+    coarse: &mut C,
     diagonal: &[T],
     points: usize,
     source: &[T],
@@ -59,6 +62,16 @@ pub fn solve<T: Real>(
         if monitor.recomputed::<T>(square, scale) == Verdict::Done {
             return monitor.info;
         }
+        if C::PRESENT {
+            rz += coarse.correct(residual);
+            let coarse = &*coarse;
+            let [] = blocks::sum_over([&mut *direction], &|start, [d]| {
+                for k in (0..d.len()).step_by(T::Pack::LANES) {
+                    (T::Pack::load(&d[k..]) + coarse.at(start + k)).store(&mut d[k..]);
+                }
+                []
+            });
+        }
         loop {
             let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
@@ -76,7 +89,7 @@ pub fn solve<T: Real>(
             let alpha = T::Pack::splat(T::from_f64(rz / dq));
             // The product is spent: its place takes z = r / D.
             let arrays = [&mut *residual, &mut *pressure, &mut *product];
-            let [next, square, scale] = blocks::sum_over(arrays, &|start, [r, p, q]| {
+            let [mut next, square, scale] = blocks::sum_over(arrays, &|start, [r, p, q]| {
                 let mut sums = [T::Pack::zero(); 3];
                 for k in (0..r.len()).step_by(T::Pack::LANES) {
                     let i = start + k;
@@ -92,11 +105,19 @@ pub fn solve<T: Real>(
                 }
                 sums.map(|sum| lanes::<T>(sum))
             });
+            if C::PRESENT {
+                next += coarse.correct(residual);
+            }
             let beta = T::Pack::splat(T::from_f64(next / rz));
             rz = next;
+            let correction = &*coarse;
             let [] = blocks::sum_over([&mut *direction], &|start, [d]| {
                 for k in (0..d.len()).step_by(T::Pack::LANES) {
-                    (T::Pack::load(&product[start + k..]) + beta * T::Pack::load(&d[k..])).store(&mut d[k..]);
+                    let mut z = T::Pack::load(&product[start + k..]);
+                    if C::PRESENT {
+                        z += correction.at(start + k);
+                    }
+                    (z + beta * T::Pack::load(&d[k..])).store(&mut d[k..]);
                 }
                 []
             });

@@ -3,6 +3,7 @@
 pub mod bicgstab;
 pub mod buoyancy;
 pub mod carry;
+pub mod coarse;
 pub mod collocated;
 pub mod conjugate_gradient;
 pub mod conservative;

@@ -37,7 +37,7 @@ fn kernels(scene: &Scene, precision: Precision) -> Vec<(&'static str, String)> {
     };
     for operation in scene.plan.operations() {
         let arrays = arrays_of(operation, scene);
-        let stages = sources::stages(operation);
+        let stages = sources::stages(operation, &scene.plan);
         stages.all().for_each(|stage| add(&stage, &arrays));
         if matches!(stages, Stages::Solve { .. }) {
             let equation = operation.solves().expect("a solve");
@@ -115,6 +115,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::DivergenceByFit,
         Operation::AddWallFlux,
         Operation::CollocatedSource,
+        Operation::Coarsen,
         Operation::ConjugateGradient,
         Operation::Bicgstab,
         Operation::DirectSolve,
@@ -158,7 +159,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
 fn the_kernels_of_an_operation_carry_its_name() {
     for scene in scenes() {
         for operation in scene.plan.operations() {
-            for stage in sources::stages(operation).all() {
+            for stage in sources::stages(operation, &scene.plan).all() {
                 let folder = stage.name.split('/').next();
                 assert_eq!(folder, Some(operation.name()), "{}", stage.name);
             }
@@ -171,7 +172,7 @@ fn what_an_operation_writes_is_written_by_its_kernels() {
     for scene in scenes() {
         for operation in scene.plan.operations().filter(|&operation| operation != Operation::DirectSolve) {
             let arrays = arrays_of(operation, &scene);
-            let text: String = sources::stages(operation)
+            let text: String = sources::stages(operation, &scene.plan)
                 .all()
                 .map(|stage| sources::expand(&stage, &scene).expect(stage.name))
                 .collect();

@@ -19,6 +19,8 @@ use crate::cpu::real::{Pack, Real};
 pub struct Symmetric<'a, T> {
     pub lists: Lists<'a>,
     pub row: &'a [T],
+    /// Points that have a pressure: those behind them have no row.
+    pub pressured: usize,
     /// What a source of this matrix is multiplied by to be one of the pressure's Laplacian, 1/m^2.
     pub per_area: T,
 }
@@ -26,6 +28,9 @@ pub struct Symmetric<'a, T> {
 impl<T: Real> Rows<T> for Symmetric<'_, T> {
     #[inline(always)]
     fn product(&self, i: usize, p: &[T]) -> T::Pack {
+        if i >= self.pressured {
+            return T::Pack::zero();
+        }
         -self.lists.differences(i, self.row, p)
     }
 

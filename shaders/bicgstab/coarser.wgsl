@@ -1,0 +1,3 @@
+// BiCGStab: the coarse pressure, the grids above the finest.
+
+#import coarse_coarser

@@ -1,0 +1,3 @@
+// BiCGStab: the coarse pressure, the finest grid.
+
+#import coarse_up

@@ -1,0 +1,3 @@
+// Conjugate gradients: the coarse pressure, the grids above the finest.
+
+#import coarse_coarser

@@ -1,0 +1,3 @@
+// Conjugate gradients: the coarse pressure, from the finest grid to the next.
+
+#import coarse_down

@@ -1,0 +1,3 @@
+// Conjugate gradients: the coarse pressure, the finest grid.
+
+#import coarse_up

@@ -1,0 +1,51 @@
+// One cycle through the grids of the coarse pressure, in four parts: `restrict` sums a residual up over the cells, `down` over four
+// cells at a time, `cycle` goes through the coarser grids and back, `up` ends on the finest. One damped Jacobi step stands before and
+// one after on each grid. See `src/cpu/operations/coarse.rs`.
+
+#import coarse_grids
+
+fn smoothing(place: u32) -> real {
+    return coarse_matrix[9u * PLACES + place];
+}
+
+fn entry(number: u32, place: u32) -> real {
+    return coarse_matrix[number * PLACES + place];
+}
+
+// The right side, and the first smoothing.
+fn begin(place: u32, right: real) {
+    coarse_right[place] = right;
+    coarse_value[place] = smoothing(place) * right;
+}
+
+// b - K x at a cell of a grid with rows so far apart. A cell without unknowns has no row.
+fn left_at(place: u32, stride: u32) -> real {
+    var left = coarse_right[place];
+    if smoothing(place) != real(0.0) {
+        let below = place - stride;
+        let above = place + stride;
+        left -= entry(0u, place) * coarse_value[below - 1u];
+        left -= entry(1u, place) * coarse_value[below];
+        left -= entry(2u, place) * coarse_value[below + 1u];
+        left -= entry(3u, place) * coarse_value[place - 1u];
+        left -= entry(4u, place) * coarse_value[place];
+        left -= entry(5u, place) * coarse_value[place + 1u];
+        left -= entry(6u, place) * coarse_value[above - 1u];
+        left -= entry(7u, place) * coarse_value[above];
+        left -= entry(8u, place) * coarse_value[above + 1u];
+    }
+    return left;
+}
+
+// What the four cells of a coarse one leave.
+fn left_below(level: u32, cell: u32) -> real {
+    let stride = LEVEL_COLUMNS[level] + 2u;
+    var sum = real(0.0);
+    for (var child = 0u; child < 4u; child++) {
+        let place = child_of(level, cell, child);
+        if place != 0u {
+            sum += left_at(place, stride);
+        }
+    }
+    return sum;
+}

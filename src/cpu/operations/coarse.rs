@@ -1,0 +1,250 @@
+//! A coarse pressure: what the solvers of points that move add to a residual over the diagonal, so that they need not carry the
+//! pressure from neighbour to neighbour through the whole fluid.
+//!
+//! Continuous: the pressure's error is smooth after a few iterations, and a smooth one is that of far fewer points. Discrete: cells
+//! of the neighbour search, `K_0 = R K R^T` with `R` the sum over the points of each cell; then four cells to one,
+//! `K_(l+1) = R K_l R^T / 2`: the halves make up for steps of `R^T`, which are steeper than the slope that they stand for. One cycle
+//! goes down and up through the grids with a damped Jacobi step before and after on each:
+//! `z = r / D + R^T (cycle)(R r)`, linear in `r`, and symmetric where `K` is. Units: those of the matrix.
+//! Sources: Braess, Computing 55 (1995) 379-393 (sums over aggregates, and what they are divided by); Tatebe, NASA CP 3224 (1993)
+//! 621-634 (a cycle as preconditioner of conjugate gradients).
+//! Shapes: see [`crate::step::coarse`]; the matrix entry by entry, all places of one after those of the one before.
+
+use crate::cpu::blocks;
+use crate::cpu::operations::lists::Lists;
+use crate::cpu::real::{Pack, Real};
+use crate::step::coarse::{AROUND, ENTRIES, Level};
+
+/// What the matrix of a coarser grid is divided by.
+pub const SCALE: f64 = 2.0;
+/// Share of a Jacobi step that is taken.
+pub const DAMPING: f64 = 0.8;
+
+/// Where points stand in the grids: cells with their points, and the grids above.
+#[derive(Clone, Copy)]
+pub struct Grids<'a> {
+    pub levels: &'a [Level],
+    /// Where each cell's points begin in `sorted`.
+    pub start: &'a [u32],
+    pub sorted: &'a [u32],
+}
+
+impl Grids<'_> {
+    /// Calls `body(place, points)` for every cell of the finest grid.
+    fn for_each_cell(&self, mut body: impl FnMut(usize, &[u32])) {
+        let finest = self.levels[0];
+        for row in 0..finest.rows {
+            for column in 0..finest.columns {
+                let cell = row * finest.columns + column;
+                let points = self.start[cell] as usize..self.start[cell + 1] as usize;
+                body(finest.at(column, row), &self.sorted[points]);
+            }
+        }
+    }
+}
+
+/// Fills the place of each point's cell, 0 where the pressure is held: at the surface and from `pressured` on.
+pub fn place(grids: Grids, surface: &[u32], pressured: usize, cell: &mut [u32]) {
+    cell.fill(0);
+    grids.for_each_cell(|place, points| {
+        for &point in points {
+            let free = (point as usize) < pressured && surface[point as usize] == 0;
+            cell[point as usize] = if free { place as u32 } else { 0 };
+        }
+    });
+}
+
+/// Fills the rows of all grids. `sign` is 1 where the factors in `row` are of `p_i - p_j`, -1 where they are of `p_j - p_i`.
+pub fn assemble<T: Real>(grids: Grids, lists: Lists, row: &[T], sign: T, cell: &[u32], matrix: &mut [T]) {
+    let places = matrix.len() / ENTRIES;
+    matrix.fill(T::zero());
+    let stride = grids.levels[0].stride() as i64;
+    grids.for_each_cell(|place, points| {
+        let mut sums = [T::zero(); AROUND];
+        for &point in points.iter().filter(|&&point| cell[point as usize] != 0) {
+            let i = point as usize;
+            for slot in 0..(lists.count[i] as usize).min(lists.capacity) {
+                let at = blocks::at(i, slot, lists.capacity);
+                let other = cell[lists.neighbours[at] as usize];
+                let way = i64::from(other) - place as i64;
+                if way == 0 {
+                    continue;
+                }
+                let factor = sign * row[at];
+                sums[AROUND / 2] += factor;
+                if other != 0 {
+                    let up = i64::from(way > 1) - i64::from(way < -1);
+                    let entry = 3 * (up + 1) + (way - up * stride) + 1;
+                    sums[entry as usize] -= factor;
+                }
+            }
+        }
+        store(matrix, places, place, sums);
+    });
+    for pair in grids.levels.windows(2) {
+        let (fine, coarse) = (pair[0], pair[1]);
+        for row in 0..coarse.rows {
+            for column in 0..coarse.columns {
+                let mut sums = [T::zero(); AROUND];
+                for (x, y) in children(fine, column, row) {
+                    for entry in 0..AROUND {
+                        // Where the cell beyond lies, seen from the coarse one.
+                        let across = |fine: usize, way: usize| (fine + 1 + way) / 2 - fine / 2;
+                        let to = 3 * across(y, entry / 3) + across(x, entry % 3);
+                        sums[to] += matrix[entry * places + fine.at(x, y)];
+                    }
+                }
+                store(matrix, places, coarse.at(column, row), sums.map(|sum| sum * T::from_f64(1.0 / SCALE)));
+            }
+        }
+    }
+}
+
+/// The cells that make up a coarse one.
+fn children(fine: Level, column: usize, row: usize) -> impl Iterator<Item = (usize, usize)> {
+    let span = |coarse: usize, count: usize| 2 * coarse..(2 * coarse + 2).min(count);
+    let columns = span(column, fine.columns);
+    span(row, fine.rows).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+}
+
+fn store<T: Real>(matrix: &mut [T], places: usize, place: usize, sums: [T; AROUND]) {
+    for (entry, sum) in sums.into_iter().enumerate() {
+        matrix[entry * places + place] = sum;
+    }
+    let own = sums[AROUND / 2];
+    matrix[AROUND * places + place] = if own == T::zero() { own } else { T::from_f64(DAMPING) / own };
+}
+
+/// What a preconditioner adds to `r / D`.
+pub trait Correction<T: Real>: Sync {
+    /// False where there is none.
+    const PRESENT: bool;
+
+    /// Takes a residual; returns its product with what is to be added.
+    fn correct(&mut self, residual: &[T]) -> f64;
+
+    /// What is added at the points `i..i + LANES`.
+    fn at(&self, i: usize) -> T::Pack;
+}
+
+/// Jacobi's preconditioner alone.
+pub struct Nothing;
+
+impl<T: Real> Correction<T> for Nothing {
+    const PRESENT: bool = false;
+
+    fn correct(&mut self, _: &[T]) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn at(&self, _: usize) -> T::Pack {
+        T::Pack::zero()
+    }
+}
+
+/// Vectors over all places.
+#[derive(Debug, Clone, Default)]
+pub struct Vectors<T> {
+    pub right: Vec<T>,
+    pub value: Vec<T>,
+    pub smoothed: Vec<T>,
+}
+
+impl<T: Real> Vectors<T> {
+    pub fn new(places: usize) -> Self {
+        let zeros = vec![T::zero(); places];
+        Self { right: zeros.clone(), value: zeros.clone(), smoothed: zeros }
+    }
+}
+
+/// A coarse pressure.
+pub struct Coarse<'a, T> {
+    pub grids: Grids<'a>,
+    pub cell: &'a [u32],
+    pub matrix: &'a [T],
+    pub vectors: &'a mut Vectors<T>,
+}
+
+impl<T: Real> Correction<T> for Coarse<'_, T> {
+    const PRESENT: bool = true;
+
+    fn correct(&mut self, residual: &[T]) -> f64 {
+        let Self { grids, matrix, vectors: Vectors { right, value, smoothed }, .. } = self;
+        let places = right.len();
+        grids.for_each_cell(|place, points| {
+            right[place] = points.iter().map(|&point| residual[point as usize]).fold(T::zero(), |sum, r| sum + r);
+        });
+        let smoothing = &matrix[AROUND * places..];
+        let levels = grids.levels;
+        for (k, &level) in levels.iter().enumerate() {
+            for at in rows(level) {
+                for ((x, b), s) in value[at.clone()].iter_mut().zip(&right[at.clone()]).zip(&smoothing[at]) {
+                    *x = *s * *b;
+                }
+            }
+            let Some(&coarse) = levels.get(k + 1) else { break };
+            // What the first smoothing leaves; kept where the second goes.
+            for at in rows(level) {
+                residual_of(matrix, places, level, at, [right, value], smoothed);
+            }
+            for row in 0..coarse.rows {
+                for column in 0..coarse.columns {
+                    let left = children(level, column, row).map(|(x, y)| smoothed[level.at(x, y)]);
+                    right[coarse.at(column, row)] = left.fold(T::zero(), |sum, left| sum + left);
+                }
+            }
+        }
+        for (k, &level) in levels.iter().enumerate().rev() {
+            if let Some(&coarse) = levels.get(k + 1) {
+                for row in 0..level.rows {
+                    for column in 0..level.columns {
+                        value[level.at(column, row)] += smoothed[coarse.at(column / 2, row / 2)];
+                    }
+                }
+            }
+            for at in rows(level) {
+                residual_of(matrix, places, level, at.clone(), [right, value], smoothed);
+                for ((e, x), s) in smoothed[at.clone()].iter_mut().zip(&value[at.clone()]).zip(&smoothing[at]) {
+                    *e = *x + *s * *e;
+                }
+            }
+        }
+        let mut sum = 0.0;
+        for at in rows(levels[0]) {
+            let row: T = right[at.clone()].iter().zip(&smoothed[at]).fold(T::zero(), |sum, (b, e)| sum + *b * *e);
+            sum += row.to_f64();
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> T::Pack {
+        // SAFETY: every cell stored is one of the places, of which each of the vectors has one; place 0 holds zero.
+        unsafe { T::Pack::gather(&self.vectors.smoothed, &self.cell[i..i + T::Pack::LANES]) }
+    }
+}
+
+/// The places of each row of a grid.
+fn rows(level: Level) -> impl Iterator<Item = std::ops::Range<usize>> {
+    (0..level.rows).map(move |row| level.at(0, row)..level.at(level.columns, row))
+}
+
+/// `b - K x` at the places of one row of a grid.
+fn residual_of<T: Real>(
+    matrix: &[T],
+    places: usize,
+    level: Level,
+    at: std::ops::Range<usize>,
+    [right, value]: [&[T]; 2],
+    out: &mut [T],
+) {
+    out[at.clone()].copy_from_slice(&right[at.clone()]);
+    for entry in 0..AROUND {
+        let from = at.start + entry / 3 * level.stride() + entry % 3 - level.stride() - 1;
+        let factors = &matrix[entry * places..][at.clone()];
+        for ((out, factor), x) in out[at.clone()].iter_mut().zip(factors).zip(&value[from..from + at.len()]) {
+            *out = *out - *factor * *x;
+        }
+    }
+}
