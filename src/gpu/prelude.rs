@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
 use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
-use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
+use crate::cpu::operations::moving::{collide, density, fits, least, pressure, shift, surface, travel};
 use crate::cpu::operations::pressure::Stop;
 use crate::scene::Scene;
 use crate::step::{BLOCK, PRESSURE_RELAXATION, Rung};
@@ -126,6 +126,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("FITTED_DENSITY", constants.crowd),
         ("PER_AREA", density::per_area(constants.lattice)),
         ("MOVING_PIVOT", fits::PIVOT),
+        ("LEAST_DETERMINANT", least::DETERMINANT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
         ("SURFACE_THRESHOLD", surface::THRESHOLD),
         ("SURFACE_THIN", surface::THIN),

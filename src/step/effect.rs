@@ -65,9 +65,8 @@ impl Operation {
             Viscosity(_) | EstimateMiddle => Effect::Viscosity,
             AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | ConjugateGradient
             | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => Effect::Pressure,
-            FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast => {
-                Effect::Pressure
-            }
+            FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast
+            | CorrectByMoments => Effect::Pressure,
             AdvancePoints | FactoriseMirrored | FitMirrored | ShiftPoints | DisplacePoints | Collide => {
                 Effect::Advection
             }

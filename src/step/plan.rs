@@ -189,7 +189,9 @@ impl Plan {
             if effects.viscosity.is_some() {
                 kick.push(AssembleIntegralLaplacian);
             }
-            kick.extend([AssembleDensity, solve_by(pressure.solver()), CorrectByLeast]);
+            let corrected = pressure.gradient() == case::Gradient::Corrected;
+            let correct = if corrected { CorrectByMoments } else { CorrectByLeast };
+            kick.extend([AssembleDensity, solve_by(pressure.solver()), correct]);
         } else {
             kick.extend([
                 FactoriseMirrored,
@@ -332,8 +334,8 @@ impl Plan {
             }
             kick.push(solve_by(pressure.solver()));
             kick.push(match pressure.gradient() {
-                case::Gradient::Fit => CorrectByFit,
                 case::Gradient::Adjoint => CorrectByAdjoint,
+                _ => CorrectByFit,
             });
         }
         if pushes_walls {
