@@ -59,7 +59,10 @@ impl Pressure {
 
     /// The gradient of the correction; the collocated form has the fit's alone.
     pub fn gradient(&self) -> Gradient {
-        self.gradient.unwrap_or(Gradient::Fit)
+        self.gradient.unwrap_or(match self.form() {
+            PressureForm::Conservative | PressureForm::Collocated => Gradient::Fit,
+            PressureForm::Integral => Gradient::Least,
+        })
     }
 
     /// The solver, by default the cheapest iterative one that applies to the form.
@@ -131,6 +134,8 @@ impl Case {
             pressure.solver = Some(pressure.solver());
             if pressure.form() == PressureForm::Conservative {
                 pressure.divergence = Some(pressure.divergence());
+            }
+            if pressure.form() != PressureForm::Collocated {
                 pressure.gradient = Some(pressure.gradient());
             }
         }

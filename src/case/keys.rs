@@ -54,7 +54,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("effects.viscosity.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.form", r#""conservative", "collocated" or "integral""#),
     ("effects.pressure.divergence", r#""faces" or "fit""#),
-    ("effects.pressure.gradient", r#""fit" or "adjoint""#),
+    ("effects.pressure.gradient", r#""fit" or "adjoint", with MPS "least" or "corrected""#),
     ("effects.pressure.solver", r#""conjugate_gradient", "bicgstab" or "direct""#),
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),

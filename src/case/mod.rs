@@ -287,7 +287,7 @@ pub struct Pressure {
     pub form: Option<PressureForm>,
     /// `conservative` alone; `faces` where absent.
     pub divergence: Option<Divergence>,
-    /// `conservative` alone; `fit` where absent.
+    /// `conservative`: `fit` where absent, or `adjoint`; `integral`: `least` where absent, or `corrected`.
     pub gradient: Option<Gradient>,
     /// `conjugate_gradient` for the conservative form and `bicgstab` for the collocated one where absent.
     pub solver: Option<Solver>,
@@ -342,6 +342,10 @@ pub enum Gradient {
     Fit,
     /// Minus the adjoint of the divergence: the pressure step never adds kinetic energy.
     Adjoint,
+    /// MPS: the weighted mean, over the least pressure around a point.
+    Least,
+    /// The same, put right by the moments of the neighbours that a point has.
+    Corrected,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

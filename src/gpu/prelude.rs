@@ -8,7 +8,7 @@ use super::layout::{Ended, Extent, Halted, NO_POINT, Phase, Scalar, Time, Word};
 use crate::case::PressureForm;
 use crate::cpu::operations::integral::DIMENSIONS;
 use crate::cpu::operations::moments::{PIVOT_THRESHOLD, entries};
-use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
+use crate::cpu::operations::moving::{collide, density, fits, least, pressure, shift, surface, travel};
 use crate::cpu::operations::pressure::Stop;
 use crate::cpu::operations::{coarse, implicit_viscosity};
 use crate::scene::Scene;
@@ -141,6 +141,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("FITTED_DENSITY", constants.crowd),
         ("PER_AREA", density::per_area(constants.lattice)),
         ("MOVING_PIVOT", fits::PIVOT),
+        ("LEAST_DETERMINANT", least::DETERMINANT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
         ("SURFACE_THRESHOLD", surface::THRESHOLD),
         ("SURFACE_THIN", surface::THIN),

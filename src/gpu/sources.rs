@@ -156,6 +156,10 @@ pub(super) fn stages(operation: Operation, plan: &Plan) -> Stages {
         Operation::CorrectByLeast => {
             Stages::Once(vec![stage!("correct_by_least/clamp", Points), stage!("correct_by_least/gradient", Points)])
         }
+        Operation::CorrectByMoments => Stages::Once(vec![
+            stage!("correct_by_moments/clamp", Points),
+            stage!("correct_by_moments/gradient", Points),
+        ]),
         Operation::ShiftPoints => once(stage!("shift_points", Points)),
         Operation::DisplacePoints => once(stage!("displace_points", Points)),
         Operation::Collide => Stages::Once(vec![stage!("collide/impulses", Points), stage!("collide/bounce", Points)]),
@@ -265,6 +269,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "fit" => text!("fit"),
         "fit_rows" => text!("fit_rows"),
         "mean" => text!("mean"),
+        "least" => text!("least"),
         "mirror" => text!("mirror"),
         "mirrored_fit" => text!("mirrored_fit"),
         "stored_coefficient" => text!("stored_coefficient"),

@@ -177,6 +177,8 @@ pub enum Operation {
     CorrectMirrored,
     /// The same with weighted means and the least pressure around each point (MPS).
     CorrectByLeast,
+    /// The same with means that are right for linear pressures whatever neighbours a point has.
+    CorrectByMoments,
     /// Moves points apart that are closer than others, and carries the fields there.
     ShiftPoints,
     /// Moves the fluid's points by what is left of their way.
@@ -254,6 +256,7 @@ impl Operation {
             Operation::AssembleDensity => "assemble_density",
             Operation::CorrectMirrored => "correct_mirrored",
             Operation::CorrectByLeast => "correct_by_least",
+            Operation::CorrectByMoments => "correct_by_moments",
             Operation::ShiftPoints => "shift_points",
             Operation::DisplacePoints => "displace_points",
             Operation::Collide => "collide",
@@ -378,7 +381,7 @@ impl Operation {
             Operation::AssembleMirrored => with(around, &[Factor(standing), Crowding, Surface, Coefficients]),
             Operation::AssembleDensity => with(around, &[Crowding, Surface]),
             Operation::CorrectMirrored => with(around, &[Factor(standing), Surface]),
-            Operation::CorrectByLeast => around,
+            Operation::CorrectByLeast | Operation::CorrectByMoments => around,
             Operation::ShiftPoints => with(around, &[Surface, Coefficients]),
             Operation::DisplacePoints => vec![Displacement],
             Operation::Collide => sums_of_lists,
@@ -444,7 +447,9 @@ impl Operation {
             Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source, Pressure],
             Operation::Coarsen => vec![CoarseCell, CoarseMatrix],
             Operation::ShiftPoints => vec![Projected, Displacement],
-            Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Pressure, Projected, Displacement],
+            Operation::CorrectMirrored | Operation::CorrectByLeast | Operation::CorrectByMoments => {
+                vec![Pressure, Projected, Displacement]
+            }
             Operation::DisplacePoints => vec![Position(Points::Standing), Projected],
             Operation::Collide => vec![Position(Points::Standing), Projected, Kick],
             Operation::Average => vec![FieldAverage],
@@ -484,7 +489,7 @@ impl Operation {
             | Operation::Coarsen
             | Operation::DirectSolve => self.writes(),
             Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source],
-            Operation::CorrectMirrored | Operation::CorrectByLeast => vec![Displacement],
+            Operation::CorrectMirrored | Operation::CorrectByLeast | Operation::CorrectByMoments => vec![Displacement],
             Operation::Collide => vec![Kick],
             Operation::EstimateMiddle => vec![Projected],
             Operation::ImplicitViscosity => vec![ViscousResidual, ViscousDirection, ViscousProduct],

@@ -201,7 +201,10 @@ impl Plan {
             }
             kick.push(AssembleDensity);
             kick.extend(coarse_solve(pressure.solver()));
-            kick.push(CorrectByLeast);
+            kick.push(match pressure.gradient() {
+                case::Gradient::Corrected => CorrectByMoments,
+                _ => CorrectByLeast,
+            });
         } else {
             kick.extend([FactoriseMirrored, FitPredicted, AssembleMirrored]);
             kick.extend(coarse_solve(pressure.solver()));
@@ -366,8 +369,8 @@ impl Plan {
                 kick.push(Predict);
             }
             kick.push(match pressure.gradient() {
-                case::Gradient::Fit => CorrectByFit,
                 case::Gradient::Adjoint => CorrectByAdjoint,
+                _ => CorrectByFit,
             });
         }
         if pushes_walls {
@@ -386,8 +389,8 @@ impl Plan {
             kick.extend([
                 RelaxPressure,
                 match pressure.gradient() {
-                    case::Gradient::Fit => MeanKickByFit,
                     case::Gradient::Adjoint => MeanKickByAdjoint,
+                    _ => MeanKickByFit,
                 },
             ]);
         }

@@ -73,6 +73,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("kinematic = 0.01", "kinematic = -0.01", "bad.toml:15: effects.viscosity.kinematic = -0.01: must be a number above 0, m^2/s (for none, leave out the table"),
     ("form = \"conservative\"", "form = \"collocated\"\nsolver = \"conjugate_gradient\"", "bad.toml:18: effects.pressure.solver = \"conjugate_gradient\": the collocated matrix (effects.pressure.form) is not symmetric: conjugate gradients do not apply; use bicgstab"),
     ("form = \"conservative\"", "form = \"collocated\"\ngradient = \"fit\"", "bad.toml:18: effects.pressure.gradient = \"fit\": belongs to the conservative form"),
+    ("form = \"conservative\"", "form = \"conservative\"\ngradient = \"corrected\"", "bad.toml:18: effects.pressure.gradient = \"corrected\": belongs to the form \"integral\", of points that move"),
     ("form = \"conservative\"", "tolerance = 0", "bad.toml:17: effects.pressure.tolerance = 0: must be a number above 0 and below 1"),
     ("form = \"conservative\"", "max_iterations = 0", "bad.toml:17: effects.pressure.max_iterations = 0: must be a whole number from 1"),
     ("form = \"conservative\"", "solver = \"cg\"", "bad.toml:17: effects.pressure.solver = \"cg\": must be \"conjugate_gradient\", \"bicgstab\" or \"direct\""),

@@ -37,6 +37,8 @@ const MISTAKES: &[(&[&str], &str, &str)] = &[
     (&["effects.pressure.form=collocated", "method.operators=integral"], "effects.pressure.form", "must be \"integral\" with points that move"),
     (&["effects.pressure.divergence=fit"], "effects.pressure.divergence", "belongs to the conservative form"),
     (&["effects.pressure.gradient=fit"], "effects.pressure.gradient", "belongs to the conservative form"),
+    (&["method.operators=integral", "effects.pressure.gradient=adjoint"], "effects.pressure.gradient", "belongs to the conservative form"),
+    (&["effects.pressure.gradient=corrected"], "effects.pressure.gradient", "belongs to method.operators = \"integral\""),
     (&["effects.pressure.solver=conjugate_gradient"], "effects.pressure.solver", "is not symmetric"),
     (&["effects.pressure.relaxation=1.5"], "effects.pressure.relaxation", "must be a number from 0 to 1"),
     (&["cloud.fill.from=[-0.1, 0.0]"], "cloud.fill.from", "inside the domain"),
@@ -56,6 +58,7 @@ const MISTAKES: &[(&[&str], &str, &str)] = &[
 fn what_does_not_go_with_points_that_move_is_named() {
     load(&[]).expect("the good case");
     load(&["method.operators=integral", "effects.pressure.solver=direct"]).expect("the integral form");
+    load(&["method.operators=integral", "effects.pressure.gradient=corrected"]).expect("the corrected gradient");
     load(&["effects.advection.motion=shifted", "cloud.arrangement=jittered"]).expect("shifted points");
     load(&["time.courant=0.8", "time.step=0.001"]).expect("a fixed step");
     for (overrides, key, words) in MISTAKES {

@@ -215,7 +215,7 @@ pub fn of(changes: &[&str]) -> Scene {
 }
 
 /// Columns of fluid that collapse, by the motion of their points.
-const COLUMNS: [(&str, &[&str]); 3] = [
+const COLUMNS: [(&str, &[&str]); 4] = [
     ("shifted points", &["effects.advection.motion=shifted"]),
     (
         "points that move, quadratic weight",
@@ -227,6 +227,10 @@ const COLUMNS: [(&str, &[&str]); 3] = [
         ],
     ),
     ("points that move, MPS", &["effects.advection.motion=lagrangian", "method.operators=integral"]),
+    (
+        "points that move, MPS, corrected gradient",
+        &["effects.advection.motion=lagrangian", "method.operators=integral", "effects.pressure.gradient=corrected"],
+    ),
 ];
 
 /// A column in a tank, 10 spacings wide and 15 high, viscous, in a step between two looks.

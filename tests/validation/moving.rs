@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::DVec2;
 use stillpoint::case::Case;
 use stillpoint::cpu;
-use stillpoint::motion::Row;
+use stillpoint::motion::{self, Row};
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Diagnostics, Observer, Outcome, Stop, Trouble, simulate};
 
@@ -93,4 +94,55 @@ fn mps_runs_the_collapse_and_counts_every_point() {
         "{:?}",
         rows.iter().map(|row| row.nearest[0]).collect::<Vec<_>>()
     );
+}
+
+/// Mean, over `rho g h`, and root mean square about the mean of the pressure on the bottom once the water has settled.
+fn on_the_bottom(rows: &[Row], depth: f64) -> [f64; 2] {
+    let late = rows.iter().filter(|row| row.time > 0.5);
+    let pressure: Vec<f64> = late.map(|row| row.sensors[0] / (1000.0 * 9.81 * depth)).collect();
+    let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
+    [mean, (pressure.iter().map(|p| (p - mean).powi(2)).sum::<f64>() / pressure.len() as f64).sqrt()]
+}
+
+#[test]
+fn mps_bears_the_weight_of_the_water_by_the_corrected_gradient_and_not_by_the_plain_one() {
+    let shallow = ["time.end=1.5", "domain.width=0.2", "domain.height=0.15", "cloud.fill.to=[0.2, 0.1]"];
+    let (scene, outcome, rows) = run("hydrostatic_mps.toml", &shallow);
+    assert_eq!(outcome.stop, Stop::End);
+    let [mean, noise] = on_the_bottom(&rows, 0.1);
+    assert!((mean - 1.0).abs() < 0.02 && noise < 0.03, "{mean} {noise}");
+    // Within a spacing of level, and as much of it as before.
+    let level = |row: &&Row| (row.column - 0.1).abs() < scene.constants.spacing && (row.area - 1.0).abs() < 0.01;
+    let settled: Vec<&Row> = rows.iter().filter(|row| row.time > 0.5).collect();
+    assert!(settled.iter().all(level) && settled.iter().all(|row| row.lost == 0));
+
+    // Half of a gradient at the surface: a spacing's weight too much below it, one of twenty.
+    let (_, outcome, rows) =
+        run("hydrostatic_mps.toml", &[&shallow[..], &["effects.pressure.gradient=least"]].concat());
+    assert_eq!(outcome.stop, Stop::End);
+    let [plain, noisier] = on_the_bottom(&rows, 0.1);
+    assert!((plain - 1.05).abs() < 0.02 && noisier > 2.0 * noise, "{plain} {noisier}");
+}
+
+#[test]
+fn a_lost_point_is_named_by_its_number_in_the_cloud() {
+    // A turn that throws points of the outer columns through the walls in the one step.
+    let step = 0.001;
+    let (scene, outcome, rows) =
+        run("hydrostatic_mps.toml", &["initial.rotation=48.0", "time.end=0.001", "output.report_every=1", "expect={}"]);
+    assert_eq!(outcome.stop, Stop::End);
+    let last = rows.last().expect("rows");
+    assert!(last.lost > 4 && last.lost == last.outside.len() as u64, "{last:?}");
+    for (point, place) in outcome.snapshot.position.iter().enumerate() {
+        let named = last.outside.iter().find(|lost| lost.point == point);
+        assert_eq!(named.is_some(), motion::lost(&scene, *place), "point {point}");
+        assert!(named.is_none_or(|lost| lost.place == place.to_array()));
+        // The point of this number in the cloud is the one that was thrown there; those beside it are a spacing away.
+        let thrown = scene.cloud.position[point] + step * scene.initial_velocity()[point];
+        if thrown.x < -0.05 * scene.constants.spacing {
+            let near =
+                |lost: &motion::Lost| (thrown - DVec2::from(lost.place)).length() < 0.5 * scene.constants.spacing;
+            assert!(named.is_some_and(near), "point {point} {named:?}");
+        }
+    }
 }

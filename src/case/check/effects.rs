@@ -139,8 +139,15 @@ fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The adjoint gradient is that of the plain flux.
+/// The adjoint gradient is that of the plain flux, and those of MPS are its own.
 fn check_pair(pressure: &Pressure) -> Result<(), Fault> {
+    if pressure.form() == PressureForm::Conservative
+        && matches!(pressure.gradient(), Gradient::Least | Gradient::Corrected)
+    {
+        let reason = "belongs to the form \"integral\", of points that move, and effects.pressure.form is \"conservative\": \
+                      allowed: \"fit\" or \"adjoint\"";
+        return Err(Fault::reason("effects.pressure.gradient", reason));
+    }
     if (pressure.divergence(), pressure.gradient()) == (Divergence::Fit, Gradient::Adjoint) {
         let reason = "has no adjoint gradient: with effects.pressure.gradient = \"adjoint\" it must be \"faces\"";
         return Err(Fault::reason("effects.pressure.divergence", reason));

@@ -2,8 +2,8 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Arrangement, Axes, Boundaries, Case, Fill, Motion, Operators, Pressure, PressureForm, Problem, Remap, SideKind,
-    Solver,
+    Arrangement, Axes, Boundaries, Case, Fill, Gradient, Motion, Operators, Pressure, PressureForm, Problem, Remap,
+    SideKind, Solver,
 };
 use super::require;
 
@@ -121,11 +121,16 @@ fn check_pressure(case: &Case, pressure: &Pressure) -> Result<(), Fault> {
         let reason = format!("must be {word:?} with points that move and method.operators = {operators:?}");
         return Err(Fault::reason("effects.pressure.form", reason));
     }
-    for (key, given) in [("divergence", pressure.divergence.is_some()), ("gradient", pressure.gradient.is_some())] {
+    let gradient = matches!(pressure.gradient, Some(Gradient::Fit | Gradient::Adjoint));
+    for (key, given) in [("divergence", pressure.divergence.is_some()), ("gradient", gradient)] {
         if given {
             let reason = "belongs to the conservative form, which points that move have not; leave it out";
             return Err(Fault::reason(&format!("effects.pressure.{key}"), reason));
         }
+    }
+    if form == PressureForm::Collocated && pressure.gradient.is_some() {
+        let reason = "belongs to method.operators = \"integral\", and fits have a gradient of their own; leave it out";
+        return Err(Fault::reason("effects.pressure.gradient", reason));
     }
     if form == PressureForm::Collocated && pressure.solver == Some(Solver::ConjugateGradient) {
         let reason = "the collocated matrix (effects.pressure.form) is not symmetric: \

@@ -164,6 +164,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::AssembleDensity
             | Operation::CorrectMirrored
             | Operation::CorrectByLeast
+            | Operation::CorrectByMoments
             | Operation::ShiftPoints
             | Operation::DisplacePoints
             | Operation::Collide => self.move_points(operation, clock),

@@ -8,7 +8,7 @@ use crate::cpu::operations::measure;
 use crate::cpu::operations::moving::mirror::{Around, Mirrors};
 use crate::cpu::operations::moving::surface::Crowd;
 use crate::cpu::operations::moving::travel::Tank;
-use crate::cpu::operations::moving::{collide, density, fits, pressure, shift, surface, travel};
+use crate::cpu::operations::moving::{collide, density, fits, least, pressure, shift, surface, travel};
 use crate::cpu::real::Real;
 use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation, Points};
@@ -82,22 +82,25 @@ impl<T: Real> CpuEngine<T> {
                     );
                 });
             }
-            Operation::CorrectByLeast => {
+            Operation::CorrectByLeast | Operation::CorrectByMoments => {
                 with_taken!(
                     self.fields,
                     [pressures = Buffer::Pressure, projected = Buffer::Projected, displacement = Buffer::Displacement],
                     {
-                        density::clamp(&mut pressures);
-                        let gradient = clock.kick / constants.density * DIMENSIONS / constants.lattice.density;
-                        let (steps, ends) = ([dt, real(gradient)], [interior, sizes.pressured]);
-                        density::correct_by_least(
-                            self.mirrored()?,
-                            &pressures,
-                            steps,
-                            ends,
-                            &mut projected,
-                            &mut displacement,
-                        );
+                        least::clamp(&mut pressures);
+                        let correction = least::Correction {
+                            dt,
+                            per_density: real(clock.kick / constants.density),
+                            lattice: real(constants.lattice.density),
+                            interior,
+                            pressured: sizes.pressured,
+                        };
+                        let around = self.mirrored()?;
+                        let correct = match operation {
+                            Operation::CorrectByLeast => least::correct_by_least,
+                            _ => least::correct_by_moments,
+                        };
+                        correct(around, &pressures, correction, &mut projected, &mut displacement);
                     }
                 );
             }

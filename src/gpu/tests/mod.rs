@@ -123,7 +123,7 @@ fn periodic_scene() -> Scene {
 }
 
 /// Points that move: shifted, and MPS.
-fn moving_scenes() -> [Scene; 2] {
+fn moving_scenes() -> [Scene; 3] {
     let text = CAVITY
         .replace("top.velocity = [1.0, 0.0]\n", "")
         .replace("spacing = 0.0625", "spacing = 0.0625\nfill = { from = [0.0, 0.0], to = [0.5, 0.5] }")
@@ -132,6 +132,7 @@ fn moving_scenes() -> [Scene; 2] {
     [
         scene_of(&text, &["effects.advection.motion=\"shifted\"", "time.courant=0.2"]),
         scene_of(&text, &[&lagrangian[..], &["time.courant=0.2"]].concat()),
+        scene_of(&text, &[&lagrangian[..], &["time.courant=0.2", "effects.pressure.gradient=\"corrected\""]].concat()),
     ]
 }
 

@@ -133,6 +133,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::AssembleDensity,
         Operation::CorrectMirrored,
         Operation::CorrectByLeast,
+        Operation::CorrectByMoments,
         Operation::ShiftPoints,
         Operation::DisplacePoints,
         Operation::Collide,

@@ -2,8 +2,7 @@
 //!
 //! Continuous: `lap p = -(rho / dt^2) (n* - n0) / n0` (3.1), `p = 0` at the free surface. Discrete, multiplied by
 //! `lambda n0 / 2 D`: `sum_j w_ij (p_i - p_j) = relaxation (rho / dt^2) (lambda n0 / 2 D) (n*_i - n0) / n0`, symmetric; points
-//! behind the walls have no pressure and no part in it. Then `u' = u* - (dt / rho) (D / n0) sum_j (p_j - p_min) d / |d|^2 w`
-//! with the least pressure around each point, which keeps points from clumping.
+//! behind the walls have no pressure and no part in it. The correction is that of `least.rs`.
 //! Source: Koshizuka and Oka, Nucl. Sci. Eng. 123 (1996) 421-434; the relaxed source: Tanaka and Masunaga, J. Comput. Phys. 229
 //! (2010) 4279-4290.
 
@@ -111,60 +110,6 @@ pub fn divergence<T: Real>(
             for lane in 0..T::Pack::LANES.min(end - i) {
                 let free = surface[i + lane] != 0;
                 out[i - block * BLOCK + lane] = if free { T::zero() } else { value.lane(lane) };
-            }
-        }
-    });
-}
-
-/// Fluid does not pull: pressures below 0 become 0.
-pub fn clamp<T: Real>(pressure: &mut [T]) {
-    blocks::for_each(pressure, 1, &|_, out| out.iter_mut().for_each(|p| *p = p.max(T::zero())));
-}
-
-/// The correction below `interior`, and the way `dt (u' - u*)`. `gradient` is `(dt / rho) (D / n0)`.
-pub fn correct_by_least<T: Real>(
-    around: Around<T>,
-    pressure: &[T],
-    [dt, gradient]: [T; 2],
-    [interior, pressured]: [usize; 2],
-    projected: &mut [T],
-    displacement: &mut [T],
-) {
-    blocks::for_each_2((projected, 2), (displacement, 2), &|block, projected, displacement| {
-        for i in blocks::packs::<T>(block, interior) {
-            let stencil = Stencil::new(around, i);
-            let zero = T::Pack::zero();
-            let mut least = T::Pack::load(&pressure[i..]);
-            stencil.for_each(|near| {
-                // SAFETY: every stored neighbour is below the number of points. Those behind walls have none to compare.
-                let there = unsafe { T::Pack::gather(pressure, near.index) };
-                let there = T::Pack::from_lanes(|lane| match (near.index[lane] as usize) < pressured {
-                    true => there.lane(lane),
-                    false => least.lane(lane),
-                });
-                least = least - (least - there).max(zero);
-            });
-            let mut sum = [zero; 2];
-            stencil.for_each(|near| {
-                // SAFETY: as above.
-                let there = unsafe { T::Pack::gather(pressure, near.index) };
-                let there = T::Pack::from_lanes(|lane| match (near.index[lane] as usize) < pressured {
-                    true => there.lane(lane),
-                    false => least.lane(lane),
-                });
-                let per_square = near.square.select_above(zero, weight::<T>(near.square) / near.square, zero);
-                let factor = (there - least) * per_square;
-                sum[0] += factor * near.offset[0];
-                sum[1] += factor * near.offset[1];
-            });
-            let scale = T::Pack::splat(-gradient) * stencil.per_radius;
-            let change = sum.map(|sum| scale * sum);
-            for lane in 0..T::Pack::LANES.min(interior - i) {
-                for (axis, change) in change.iter().enumerate() {
-                    let at = 2 * (i - block * BLOCK + lane) + axis;
-                    projected[at] += change.lane(lane);
-                    displacement[at] = dt * change.lane(lane);
-                }
             }
         }
     });

@@ -5,6 +5,7 @@
 pub mod collide;
 pub mod density;
 pub mod fits;
+pub mod least;
 pub mod mirror;
 pub mod pressure;
 pub mod shift;
