@@ -163,10 +163,7 @@ fn conjugate_gradient(coarsens: bool) -> Stages {
         ]);
     }
     check.push(stage!("conjugate_gradient/judge"));
-    iterate.extend([
-        stage!("conjugate_gradient/beta"),
-        stage!("conjugate_gradient/direction", Iterate),
-    ]);
+    iterate.extend([stage!("conjugate_gradient/beta"), stage!("conjugate_gradient/direction", Iterate)]);
     Stages::Solve { check, iterate }
 }
 

@@ -63,8 +63,10 @@ impl Operation {
             Gravity | HoldWalls => Effect::Gravity,
             Buoyancy => Effect::Buoyancy,
             Viscosity(_) | EstimateMiddle => Effect::Viscosity,
-            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | Coarsen | ConjugateGradient
-            | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => Effect::Pressure,
+            AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | Coarsen
+            | ConjugateGradient | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => {
+                Effect::Pressure
+            }
             FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast => {
                 Effect::Pressure
             }

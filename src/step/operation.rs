@@ -304,9 +304,7 @@ impl Operation {
             // The source is there already: a sum, as the kick of a force is.
             Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
-            Operation::Coarsen => {
-                with(plan.matrix(), &[CellStart(standing), CellPoints(standing), Surface])
-            }
+            Operation::Coarsen => with(plan.matrix(), &[CellStart(standing), CellPoints(standing), Surface]),
             Operation::ConjugateGradient | Operation::Bicgstab if plan.coarsens() => {
                 let coarse = [CellStart(standing), CellPoints(standing), CoarseCell, CoarseMatrix];
                 with(with(plan.matrix(), &[Diagonal, Volume, Source]), &coarse)

@@ -40,5 +40,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         }
     }
     let number = group_of(group);
-    add_up_to(GROUPS + number, number < COARSE_GROUPS, local, sums(product, 0.0, 0.0, 0.0));
+    add_up_one_to(GROUPS + number, number < COARSE_GROUPS, local, product);
 }
