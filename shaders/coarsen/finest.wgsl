@@ -11,7 +11,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if cell >= CELLS {
         return;
     }
-    let place = place_of(0u, cell);
+    let place = place_of(FINEST, cell);
     clear();
     for (var k = cell_start[cell]; k < cell_start[cell + 1u]; k++) {
         let i = cell_points[k];

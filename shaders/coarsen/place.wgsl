@@ -7,7 +7,7 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let cell = index_of(group, local);
     if cell < CELLS {
-        let place = place_of(0u, cell);
+        let place = place_of(FINEST, cell);
         for (var k = cell_start[cell]; k < cell_start[cell + 1u]; k++) {
             let i = cell_points[k];
             coarse_cell[i] = select(0u, place, i < PRESSURED && surface[i] == 0u);

@@ -16,5 +16,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         product[i] = q;
         dq = q * direction[i];
     }
-    add_up(group_of(group), local, sums(dq, 0.0, 0.0, 0.0));
+    add_up_one(group_of(group), local, dq);
 }

@@ -8,10 +8,6 @@ var<workgroup> row_sums: array<sums, GROUP_ROWS>;
 
 // Writes the workgroup's sums. Every invocation calls it, those past the last point with zeros.
 fn add_up(group: u32, local: u32, own: sums) {
-    add_up_to(group, group < GROUPS, local, own);
-}
-
-fn add_up_to(place: u32, counts: bool, local: u32, own: sums) {
     lane_sums[local] = own;
     workgroupBarrier();
     if local < GROUP_ROWS {
@@ -22,11 +18,39 @@ fn add_up_to(place: u32, counts: bool, local: u32, own: sums) {
         row_sums[local] = sum;
     }
     workgroupBarrier();
-    if local == 0u && counts {
+    if local == 0u && group < GROUPS {
         var sum = sums();
         for (var k = 0u; k < GROUP_ROWS; k++) {
             sum += row_sums[k];
         }
-        partials[place] = sum;
+        partials[group] = sum;
+    }
+}
+
+// The same of a single number: a quarter of the work.
+var<workgroup> lane_values: array<real, GROUP>;
+var<workgroup> row_values: array<real, GROUP_ROWS>;
+
+fn add_up_one(group: u32, local: u32, own: real) {
+    add_up_one_to(group, group < GROUPS, local, own);
+}
+
+fn add_up_one_to(place: u32, counts: bool, local: u32, own: real) {
+    lane_values[local] = own;
+    workgroupBarrier();
+    if local < GROUP_ROWS {
+        var sum = real(0.0);
+        for (var k = 0u; k < GROUP / GROUP_ROWS; k++) {
+            sum += lane_values[local * (GROUP / GROUP_ROWS) + k];
+        }
+        row_values[local] = sum;
+    }
+    workgroupBarrier();
+    if local == 0u && counts {
+        var sum = real(0.0);
+        for (var k = 0u; k < GROUP_ROWS; k++) {
+            sum += row_values[k];
+        }
+        partials[place] = sums(sum, 0.0, 0.0, 0.0);
     }
 }

@@ -9,6 +9,7 @@ mod batch;
 mod bindings;
 mod device;
 mod engine;
+mod grids;
 mod launch;
 mod layout;
 mod memory;

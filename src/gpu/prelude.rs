@@ -12,7 +12,7 @@ use crate::cpu::operations::moving::{collide, density, fits, least, pressure, sh
 use crate::cpu::operations::pressure::Stop;
 use crate::cpu::operations::{coarse, implicit_viscosity};
 use crate::scene::Scene;
-use crate::step::coarse::{Level, levels};
+use crate::step::coarse::levels;
 use crate::step::{BLOCK, Equation, PRESSURE_RELAXATION, Rung};
 
 /// Invocations of a workgroup over points or cells, and those that add up its sum in the middle.
@@ -196,21 +196,6 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     {
         let [x, y] = Shape::extent(groups);
         line(&mut text, format_args!("const {name} = vec2<u32>({x}u, {y}u);"));
-    }
-    if scene.plan.coarsens() {
-        let levels = levels(&constants.grid);
-        line(&mut text, format_args!("const LEVELS: u32 = {}u;", levels.len()));
-        let of = |number: fn(&Level) -> usize| {
-            let numbers: Vec<String> = levels.iter().map(|level| format!("{}u", number(level))).collect();
-            numbers.join(", ")
-        };
-        for (name, numbers) in [
-            ("LEVEL_FIRST", of(|level| level.first)),
-            ("LEVEL_COLUMNS", of(|level| level.columns)),
-            ("LEVEL_ROWS", of(|level| level.rows)),
-        ] {
-            line(&mut text, format_args!("const {name} = array<u32, LEVELS>({numbers});"));
-        }
     }
     let wider = Rung::WIDER.map(|step| format!("{step:e}")).join(", ");
     line(&mut text, format_args!("const WIDER = array<real, WIDER_STEPS>({wider});"));

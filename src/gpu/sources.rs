@@ -1,7 +1,7 @@
 //! The WGSL files: which stages an operation has, and what `#import` brings in.
 
 use super::layout::Extent;
-use super::unrolled;
+use super::{grids, unrolled};
 use crate::case::{PressureForm, Weight};
 use crate::engine::EngineError;
 use crate::scene::Scene;
@@ -254,7 +254,6 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
     Some(match name {
         "points" => text!("points"),
         "cells" => text!("cells"),
-        "coarse_grids" => text!("coarse/grids"),
         "coarse_store" => text!("coarse/store"),
         "coarse_cycle" => text!("coarse/cycle"),
         "coarse_restrict" => text!("coarse/restrict"),
@@ -330,8 +329,9 @@ fn append(source: &str, scene: &Scene, seen: &mut Vec<String>, text: &mut String
             Some(name) if seen.iter().any(|other| other == name) => {}
             Some(name) => {
                 seen.push(name.to_owned());
-                match unrolled::library(name, scene.constants.order) {
-                    Some(unrolled) => text.push_str(&unrolled),
+                let written = unrolled::library(name, scene.constants.order).or_else(|| grids::library(name, scene));
+                match written {
+                    Some(written) => text.push_str(&written),
                     None => append(library(name, scene).ok_or(name)?, scene, seen, text)?,
                 }
             }

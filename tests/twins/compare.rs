@@ -39,7 +39,7 @@ struct Entries {
 }
 
 impl Entries {
-    fn new(scene: &Scene, buffer: Buffer, results: &Results) -> Self {
+    fn new(scene: &Scene, buffer: Buffer, results: &Results, slack: f64) -> Self {
         let (entries, points): (Vec<_>, _) = entries(scene, buffer).unzip();
         let of = |data: &Data| {
             let values: Vec<f64> = match data {
@@ -51,7 +51,7 @@ impl Entries {
         };
         let [double, single, gpu] = [results.double, results.single, results.gpu].map(of);
         let allowed = match buffer.element() {
-            Element::Real => rounding(&double, &single),
+            Element::Real => slack * rounding(&double, &single),
             // Indexes are equal or they differ: no scene has a point within rounding of a cell's edge or of a neighbour's
             // radius, or a pivot within rounding of the threshold.
             Element::Index => 0.0,
@@ -77,14 +77,20 @@ fn most(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-/// By how much the engines may differ in an array.
-pub fn allowed(scene: &Scene, buffer: Buffer, results: &Results) -> f64 {
-    Entries::new(scene, buffer, results).allowed
+/// By how much the engines may differ in an array; `slack` times rounding.
+pub fn allowed(scene: &Scene, buffer: Buffer, results: &Results, slack: f64) -> f64 {
+    Entries::new(scene, buffer, results, slack).allowed
 }
 
 /// The entry that differs most, if by more than is allowed.
-pub fn compare(scene: &Scene, operation: Operation, buffer: Buffer, results: &Results) -> Option<Difference> {
-    let entries = Entries::new(scene, buffer, results);
+pub fn compare(
+    scene: &Scene,
+    operation: Operation,
+    buffer: Buffer,
+    results: &Results,
+    slack: f64,
+) -> Option<Difference> {
+    let entries = Entries::new(scene, buffer, results, slack);
     let worst = (0..entries.gpu.len()).max_by(|&a, &b| entries.distance(a).total_cmp(&entries.distance(b)))?;
     // Not `>`: nothing compares with NaN.
     let agrees = entries.distance(worst) <= entries.allowed;

@@ -34,8 +34,16 @@ impl Done<'_> {
         let of = |buffer| Results { double: &double[&buffer], single: &single[&buffer], gpu: &gpu[&buffer] };
         compared(self.operation)
             .into_iter()
-            .filter_map(|buffer| compare(self.scene, self.operation, buffer, &of(buffer)))
+            .filter_map(|buffer| compare(self.scene, self.operation, buffer, &of(buffer), self.slack()))
             .collect()
+    }
+
+    /// Below the floor a solve stops where it is. Where the GPU got there in fewer iterations than the CPU in f32, what it leaves is as
+    /// much larger as its residual, which `residuals_agree` holds to the floor.
+    fn slack(&self) -> f64 {
+        let [single, gpu] = [self.engines.single.solve_info(), self.engines.gpu.solve_info()];
+        let sooner = iterates(self.operation) && gpu.iterations < single.iterations;
+        if sooner { (gpu.last_residual / single.last_residual).max(1.0) } else { 1.0 }
     }
 }
 
@@ -214,7 +222,8 @@ fn residuals_agree(name: &str, done: Done) {
         assert!(residual <= 2.0 * floor && info.first_residual > 10.0 * floor, "{say}");
     }
     let [_, single, gpu] = residuals;
-    assert!(gpu <= FACTOR * single, "{say}");
+    let sooner = infos[2].iterations < infos[1].iterations;
+    assert!(sooner || gpu <= FACTOR * single, "{say}");
 }
 
 /// Every array that any operation writes, spoiled in one entry by three times what is allowed, is found out.
@@ -224,12 +233,13 @@ fn a_planted_difference_is_reported_with_its_operation_its_array_and_its_point()
     for (name, scene) in scenes::all() {
         let mut engines = Engines::new(&candidate, &scene);
         walk(&scene, &mut engines, &mut |mut done| {
+            let slack = done.slack();
             for buffer in compared(done.operation) {
                 let (entry, point) = middle(&scene, buffer);
                 let kept = done.after[2].clone();
                 let [double, single, gpu] = &mut done.after;
                 let results = Results { double: &double[&buffer], single: &single[&buffer], gpu: &gpu[&buffer] };
-                let by = 3.0 * allowed(&scene, buffer, &results);
+                let by = 3.0 * allowed(&scene, buffer, &results, slack);
                 match gpu.get_mut(&buffer).expect("an array") {
                     Data::Real(values) => values[entry] += by.max(f64::from(f32::MIN_POSITIVE)),
                     Data::Index(values) => values[entry] = values[entry].wrapping_add(1),

@@ -1,28 +1,35 @@
 // Down through the grids above the finest and up again, by one workgroup.
 
 #import coarse_cycle
+#import written/coarse_cycle
+
+fn go_down(fine: Grid, coarse: Grid, local: u32) {
+    for (var cell = local; cell < cells_of(coarse); cell += REDUCERS) {
+        begin(place_of(coarse, cell), left_below(fine, coarse, cell));
+    }
+}
+
+fn bring_up(fine: Grid, coarse: Grid, local: u32) {
+    for (var cell = local; cell < cells_of(fine); cell += REDUCERS) {
+        let place = place_of(fine, cell);
+        if smoothing(place) != real(0.0) {
+            let parent = parent_in(coarse, cell % fine.columns + 1u, cell / fine.columns + 1u);
+            coarse_value[place] += coarse_smoothed[parent];
+        }
+    }
+}
+
+fn smooth_out(grid: Grid, local: u32) {
+    for (var cell = local; cell < cells_of(grid); cell += REDUCERS) {
+        let place = place_of(grid, cell);
+        let factor = smoothing(place);
+        if factor != real(0.0) {
+            coarse_smoothed[place] = coarse_value[place] + factor * left_at(place, grid.columns + 2u);
+        }
+    }
+}
 
 @compute @workgroup_size(REDUCERS)
 fn main(@builtin(local_invocation_index) local: u32) {
-    for (var level = 2u; level < LEVELS; level++) {
-        for (var cell = local; cell < cells_of(level); cell += REDUCERS) {
-            begin(place_of(level, cell), left_below(level - 1u, cell));
-        }
-        storageBarrier();
-    }
-    for (var level = LEVELS - 1u; level > 0u; level--) {
-        let columns = LEVEL_COLUMNS[level];
-        if level + 1u < LEVELS {
-            for (var cell = local; cell < cells_of(level); cell += REDUCERS) {
-                let parent = parent_of(level, cell % columns + 1u, cell / columns + 1u);
-                coarse_value[place_of(level, cell)] += coarse_smoothed[parent];
-            }
-        }
-        storageBarrier();
-        for (var cell = local; cell < cells_of(level); cell += REDUCERS) {
-            let place = place_of(level, cell);
-            coarse_smoothed[place] = coarse_value[place] + smoothing(place) * left_at(place, columns + 2u);
-        }
-        storageBarrier();
-    }
+    go_through_all(local);
 }

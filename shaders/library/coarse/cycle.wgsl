@@ -18,34 +18,32 @@ fn begin(place: u32, right: real) {
     coarse_value[place] = smoothing(place) * right;
 }
 
-// b - K x at a cell of a grid with rows so far apart. A cell without unknowns has no row.
+// b - K x at a cell of a grid with rows so far apart. A cell without unknowns has no row, and nothing on its right side.
 fn left_at(place: u32, stride: u32) -> real {
-    var left = coarse_right[place];
-    if smoothing(place) != real(0.0) {
-        let below = place - stride;
-        let above = place + stride;
-        left -= entry(0u, place) * coarse_value[below - 1u];
-        left -= entry(1u, place) * coarse_value[below];
-        left -= entry(2u, place) * coarse_value[below + 1u];
-        left -= entry(3u, place) * coarse_value[place - 1u];
-        left -= entry(4u, place) * coarse_value[place];
-        left -= entry(5u, place) * coarse_value[place + 1u];
-        left -= entry(6u, place) * coarse_value[above - 1u];
-        left -= entry(7u, place) * coarse_value[above];
-        left -= entry(8u, place) * coarse_value[above + 1u];
+    if smoothing(place) == real(0.0) {
+        return real(0.0);
     }
+    let below = place - stride;
+    let above = place + stride;
+    var left = coarse_right[place];
+    left -= entry(0u, place) * coarse_value[below - 1u];
+    left -= entry(1u, place) * coarse_value[below];
+    left -= entry(2u, place) * coarse_value[below + 1u];
+    left -= entry(3u, place) * coarse_value[place - 1u];
+    left -= entry(4u, place) * coarse_value[place];
+    left -= entry(5u, place) * coarse_value[place + 1u];
+    left -= entry(6u, place) * coarse_value[above - 1u];
+    left -= entry(7u, place) * coarse_value[above];
+    left -= entry(8u, place) * coarse_value[above + 1u];
     return left;
 }
 
 // What the four cells of a coarse one leave.
-fn left_below(level: u32, cell: u32) -> real {
-    let stride = LEVEL_COLUMNS[level] + 2u;
+fn left_below(fine: Grid, coarse: Grid, cell: u32) -> real {
+    let stride = fine.columns + 2u;
     var sum = real(0.0);
     for (var child = 0u; child < 4u; child++) {
-        let place = child_of(level, cell, child);
-        if place != 0u {
-            sum += left_at(place, stride);
-        }
+        sum += left_at(child_of(fine, coarse, cell, child), stride);
     }
     return sum;
 }

@@ -6,7 +6,7 @@
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let cell = index_of(group, local);
-    if LEVELS > 1u && cell < cells_of(1u) {
-        begin(place_of(1u, cell), left_below(0u, cell));
+    if cell < cells_of(SECOND) {
+        begin(place_of(SECOND, cell), left_below(FINEST, SECOND, cell));
     }
 }

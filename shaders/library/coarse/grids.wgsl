@@ -1,24 +1,28 @@
 // The grids of the coarse pressure: where the cells of each stand in arrays of all. See `src/step/coarse.rs`.
 
-fn place_of(level: u32, cell: u32) -> u32 {
-    let columns = LEVEL_COLUMNS[level];
-    return LEVEL_FIRST[level] + cell / columns * (columns + 2u) + cell % columns;
+struct Grid {
+    first: u32,
+    columns: u32,
+    rows: u32,
 }
 
-fn cells_of(level: u32) -> u32 {
-    return LEVEL_COLUMNS[level] * LEVEL_ROWS[level];
+fn place_of(grid: Grid, cell: u32) -> u32 {
+    return grid.first + cell / grid.columns * (grid.columns + 2u) + cell % grid.columns;
 }
 
-// The place of one of the four cells that make up a coarse one, seen from the finer grid; 0, which holds zeros, where there is none.
-fn child_of(level: u32, cell: u32, child: u32) -> u32 {
-    let columns = LEVEL_COLUMNS[level + 1u];
-    let x = 2u * (cell % columns) + child % 2u;
-    let y = 2u * (cell / columns) + child / 2u;
-    let inside = x < LEVEL_COLUMNS[level] && y < LEVEL_ROWS[level];
-    return select(0u, LEVEL_FIRST[level] + y * (LEVEL_COLUMNS[level] + 2u) + x, inside);
+fn cells_of(grid: Grid) -> u32 {
+    return grid.columns * grid.rows;
 }
 
-// The place of the coarse cell that a cell belongs to, `x` and `y` one more than its column and row: those around the grid have one too.
-fn parent_of(level: u32, x: u32, y: u32) -> u32 {
-    return LEVEL_FIRST[level + 1u] + ((y + 1u) / 2u - 1u) * (LEVEL_COLUMNS[level + 1u] + 2u) + ((x + 1u) / 2u - 1u);
+// The place of one of the four cells that make up a coarse one; 0, which holds zeros, where there is none.
+fn child_of(fine: Grid, coarse: Grid, cell: u32, child: u32) -> u32 {
+    let x = 2u * (cell % coarse.columns) + child % 2u;
+    let y = 2u * (cell / coarse.columns) + child / 2u;
+    let inside = x < fine.columns && y < fine.rows;
+    return select(0u, fine.first + y * (fine.columns + 2u) + x, inside);
+}
+
+// The place of the coarse cell that a cell belongs to, `x` and `y` one more than its column and row: those around a grid have one too.
+fn parent_in(coarse: Grid, x: u32, y: u32) -> u32 {
+    return coarse.first + ((y + 1u) / 2u - 1u) * (coarse.columns + 2u) + ((x + 1u) / 2u - 1u);
 }

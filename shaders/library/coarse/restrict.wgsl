@@ -11,6 +11,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         for (var k = cell_start[cell]; k < cell_start[cell + 1u]; k++) {
             sum += restricted(cell_points[k]);
         }
-        begin(place_of(0u, cell), sum);
+        begin(place_of(FINEST, cell), sum);
     }
 }

@@ -5,8 +5,8 @@
 
 // What stands at a cell, `x` and `y` one more than its column and row, once the coarser grid's is added.
 fn value_at(place: u32, x: u32, y: u32) -> real {
-    if LEVELS > 1u {
-        return coarse_value[place] + coarse_smoothed[parent_of(0u, x, y)];
+    if cells_of(SECOND) > 0u {
+        return coarse_value[place] + coarse_smoothed[parent_in(SECOND, x, y)];
     }
     return coarse_value[place];
 }
@@ -16,7 +16,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let cell = index_of(group, local);
     var product = real(0.0);
     if cell < CELLS {
-        let place = place_of(0u, cell);
+        let place = place_of(FINEST, cell);
         let factor = smoothing(place);
         if factor != real(0.0) {
             let x = cell % CELLS_X + 1u;
@@ -40,5 +40,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         }
     }
     let number = group_of(group);
-    add_up_to(GROUPS + number, number < COARSE_GROUPS, local, sums(product, 0.0, 0.0, 0.0));
+    add_up_one_to(GROUPS + number, number < COARSE_GROUPS, local, product);
 }

@@ -244,7 +244,7 @@ fn residual_of<T: Real>(
         let from = at.start + entry / 3 * level.stride() + entry % 3 - level.stride() - 1;
         let factors = &matrix[entry * places..][at.clone()];
         for ((out, factor), x) in out[at.clone()].iter_mut().zip(factors).zip(&value[from..from + at.len()]) {
-            *out = *out - *factor * *x;
+            *out -= *factor * *x;
         }
     }
 }

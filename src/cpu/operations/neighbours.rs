@@ -49,6 +49,16 @@ impl<T: Real, S: Space<T>> Search<'_, T, S> {
     /// each row from the window's first, past the seam where it reaches there.
     #[inline(always)]
     pub fn within(&self, i: usize, radius: T, mut found: impl FnMut(u32)) {
+        self.around(i, radius, |j, near| {
+            if near {
+                found(j);
+            }
+        });
+    }
+
+    /// Calls `met(j, near)` for every point in the cells around point `i`, in that order, and says whether it is within `radius`.
+    #[inline(always)]
+    fn around(&self, i: usize, radius: T, mut met: impl FnMut(u32, bool)) {
         let (position, grid, space) = (self.position, self.grid, self.space);
         let own = [position[2 * i], position[2 * i + 1]];
         let [cx, cy] = grid.cell_of(own.map(Real::to_f64));
@@ -63,9 +73,8 @@ impl<T: Real, S: Space<T>> Search<'_, T, S> {
                 for &j in &self.sorted[first as usize..last as usize] {
                     let d = [position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]];
                     let [dx, dy] = space.shortest(d.map(One)).map(|d| d.0);
-                    if j as usize != i && dx * dx + dy * dy < radius * radius {
-                        found(j);
-                    }
+                    // No branch: which points are near follows no pattern.
+                    met(j, (j as usize != i) & (dx * dx + dy * dy < radius * radius));
                 }
             }
         }
@@ -109,11 +118,12 @@ fn list<T: Real, S: Space<T>>(
             let own = i.min(points - 1);
             let mut met = 0;
             if i < points {
-                search.within(i, radius(i), |j| {
+                search.around(i, radius(i), |j, near| {
+                    // One that is not near is written over by the next.
                     if met < capacity {
                         neighbours[met * BLOCK + lane] = j;
                     }
-                    met += 1;
+                    met += usize::from(near);
                 });
             }
             for slot in met..capacity {
