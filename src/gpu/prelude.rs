@@ -127,6 +127,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("PER_AREA", density::per_area(constants.lattice)),
         ("MOVING_PIVOT", fits::PIVOT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
+        ("SHEET", pressure::SHEET),
         ("SURFACE_THRESHOLD", surface::THRESHOLD),
         ("SURFACE_THIN", surface::THIN),
         ("TWICE_CIRCLE", 2.0 * surface::REACH * constants.spacing / constants.radius),
