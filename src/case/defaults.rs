@@ -81,7 +81,16 @@ const COARSE: f64 = 64.0;
 const INTEGRAL_RELAXATION: f64 = 0.05;
 const SHIFTED_RELAXATION: f64 = 0.01;
 
+/// Spacings that nothing moves farther than in a step: of points that stand, and of points that move.
+const DEFAULT_COURANT: f64 = 0.8;
+const MOVING_COURANT: f64 = 0.2;
+
 impl Case {
+    /// Largest distance that a point moves in one step, in spacings.
+    pub fn courant(&self) -> f64 {
+        self.time.courant.unwrap_or(if self.moves() { MOVING_COURANT } else { DEFAULT_COURANT })
+    }
+
     /// Share of an error in density that a step takes out; 0 for the paper's interpolation form.
     pub fn relaxation(&self) -> f64 {
         let default = match (self.motion(), self.method.operators) {
@@ -112,6 +121,7 @@ impl Case {
             cloud.minimum_distance = Some(cloud.minimum_distance());
         }
         self.method.radius = Some(self.method.radius());
+        self.time.courant = Some(self.courant());
         let tolerance = self.tolerance();
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.tolerance = Some(tolerance);

@@ -352,7 +352,8 @@ impl<'a> Run<'a> {
         let (longest, limit) = match time.step {
             Some(step) => (step, Limit::Fixed),
             None => {
-                let by_motion = if moves { time.courant * spacing / self.faster(speed) } else { f64::INFINITY };
+                let by_motion =
+                    if moves { self.scene.case.courant() * spacing / self.faster(speed) } else { f64::INFINITY };
                 let limits =
                     [(self.limit, self.stable_by()), (by_motion, Limit::Courant), (self.by_fall(), Limit::Gravity)];
                 let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
@@ -388,9 +389,9 @@ impl<'a> Run<'a> {
         match self.scene.case.effects.advection {
             // Beside the surface a point's fall and the pressure's answer follow each other as in the shortest wave.
             Some(_) if gravity > 0.0 && self.scene.plan.moves() => {
-                self.scene.case.time.courant * (spacing / gravity).sqrt()
+                self.scene.case.courant() * (spacing / gravity).sqrt()
             }
-            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
+            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.courant() * spacing / gravity).sqrt(),
             _ => f64::INFINITY,
         }
     }
