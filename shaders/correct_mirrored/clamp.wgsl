@@ -1,4 +1,5 @@
-// Correction of points that move, 1 of 2: thin fluid does not pull; pressures below 0 become 0 beside the surface. Pa.
+// Correction of points that move, 1 of 2: thin fluid does not pull; pressures below 0 become 0 where more than a share of the
+// neighbours are on the surface. Pa.
 
 #import points
 
@@ -10,10 +11,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let first = at(i, 0u, CAPACITY);
     let last = first + min(neighbour_count[i], CAPACITY) * BLOCK;
+    var free = 0u;
     for (var slot = first; slot < last; slot += BLOCK) {
-        if surface[neighbours[slot]] != 0u {
-            pressure[i] = real(0.0);
-            return;
-        }
+        free += surface[neighbours[slot]];
+    }
+    if real(free) > SHEET * real((last - first) / BLOCK) {
+        pressure[i] = real(0.0);
     }
 }

@@ -86,7 +86,16 @@ const COARSE: f64 = 64.0;
 const INTEGRAL_RELAXATION: f64 = 0.05;
 const SHIFTED_RELAXATION: f64 = 0.01;
 
+/// Spacings that nothing moves farther than in a step: of points that stand, and of points that move.
+const DEFAULT_COURANT: f64 = 0.8;
+const MOVING_COURANT: f64 = 0.2;
+
 impl Case {
+    /// Largest distance that a point moves in one step, in spacings.
+    pub fn courant(&self) -> f64 {
+        self.time.courant.unwrap_or(if self.moves() { MOVING_COURANT } else { DEFAULT_COURANT })
+    }
+
     /// Share of an error in density that a step takes out; 0 for the paper's interpolation form.
     pub fn relaxation(&self) -> f64 {
         let default = match (self.motion(), self.method.operators) {
@@ -128,6 +137,7 @@ impl Case {
         if let Some(viscosity) = self.effects.viscosity.as_mut().filter(|_| implicit) {
             viscosity.tolerance = Some(tolerance);
         }
+        self.time.courant = Some(self.courant());
         let tolerance = self.tolerance();
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.tolerance = Some(tolerance);

@@ -481,8 +481,7 @@ pub struct Time {
     /// s
     pub end: f64,
     /// Largest distance a point moves in one step, in spacings.
-    #[serde(default = "default_courant")]
-    pub courant: f64,
+    pub courant: Option<f64>,
     /// A fixed step, s, in place of one chosen from `courant` and the viscous limit.
     pub step: Option<f64>,
     /// Stop when no velocity changes faster than this, m/s^2.
@@ -546,12 +545,8 @@ pub enum Solution {
 /// No time: of a problem without.
 impl Default for Time {
     fn default() -> Self {
-        Self { end: 0.0, courant: default_courant(), step: None, steady: None, splitting: Splitting::default() }
+        Self { end: 0.0, courant: None, step: None, steady: None, splitting: Splitting::default() }
     }
-}
-
-fn default_courant() -> f64 {
-    0.8
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

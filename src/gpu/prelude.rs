@@ -143,6 +143,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("MOVING_PIVOT", fits::PIVOT),
         ("LEAST_DETERMINANT", least::DETERMINANT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
+        ("SHEET", pressure::SHEET),
         ("SURFACE_THRESHOLD", surface::THRESHOLD),
         ("SURFACE_THIN", surface::THIN),
         ("TWICE_CIRCLE", 2.0 * surface::REACH * constants.spacing / constants.radius),

@@ -357,7 +357,8 @@ impl<'a> Run<'a> {
         let (longest, limit) = match time.step {
             Some(step) => (step, Limit::Fixed),
             None => {
-                let by_motion = if moves { time.courant * spacing / self.faster(speed) } else { f64::INFINITY };
+                let courant = self.scene.case.courant();
+                let by_motion = if moves { courant * spacing / self.faster(speed) } else { f64::INFINITY };
                 let limits = [
                     (self.limit, self.stable_by()),
                     (self.by_decay(), Limit::Viscosity),
@@ -397,9 +398,9 @@ impl<'a> Run<'a> {
         match self.scene.case.effects.advection {
             // Beside the surface a point's fall and the pressure's answer follow each other as in the shortest wave.
             Some(_) if gravity > 0.0 && self.scene.plan.moves() => {
-                self.scene.case.time.courant * (spacing / gravity).sqrt()
+                self.scene.case.courant() * (spacing / gravity).sqrt()
             }
-            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.time.courant * spacing / gravity).sqrt(),
+            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.courant() * spacing / gravity).sqrt(),
             _ => f64::INFINITY,
         }
     }

@@ -5,7 +5,7 @@ use crate::engine::{Data, EngineError};
 use crate::motion;
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
-use crate::step::{Buffer, Points};
+use crate::step::{Buffer, Operation, Points};
 
 use glam::DVec2;
 
@@ -56,6 +56,30 @@ impl Watch {
 }
 
 impl Run<'_> {
+    /// The pressure of points between mirrors at the beginning, for the reports, and for the first solve to begin from: that of the
+    /// first step, after which the points are put back. Of MPS, whose pressure answers to an error in density, there is
+    /// none yet.
+    pub(super) fn first_pressure(&mut self, dt: f64) -> Result<(), EngineError> {
+        if !self.scene.plan.mirrors() {
+            return Ok(());
+        }
+        let (plan, clock) = (&self.scene.plan, self.scene.clock(dt));
+        let changed = [Buffer::Position(Points::Standing), Buffer::Projected];
+        let begun = changed.map(|buffer| self.engine.read(buffer));
+        for &operation in plan.drift.iter().chain(&plan.kick) {
+            match operation {
+                Operation::Collide => continue,
+                Operation::CorrectMirrored => break,
+                _ => self.engine.apply(operation, &clock)?,
+            }
+        }
+        for (buffer, begun) in changed.into_iter().zip(begun) {
+            self.engine.write(buffer, &begun?)?;
+        }
+        // The fits of the velocity that was put back.
+        plan.setup.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
+    }
+
     /// The speed that points are moved with by the time that it is looked at again, m/s, at `time.courant` spacings a step: they
     /// fall on until then.
     pub(super) fn faster(&self, speed: f64) -> f64 {
@@ -63,7 +87,7 @@ impl Run<'_> {
             return speed;
         }
         let falls = self.scene.constants.gravity.length() * f64::from(STRETCH);
-        let way = self.scene.case.time.courant * self.scene.constants.spacing;
+        let way = self.scene.case.courant() * self.scene.constants.spacing;
         0.5 * (speed + (speed * speed + 4.0 * falls * way).sqrt())
     }
 

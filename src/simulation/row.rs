@@ -24,6 +24,7 @@ impl Run<'_> {
         let (dt, _) = self.step(speed, 0.0, 0)?;
         self.begin_steps(dt)?;
         self.first_kick(dt)?;
+        self.first_pressure(dt)?;
         let viscous = Some(self.limit).filter(|limit| limit.is_finite());
         let warnings = self.warnings.clone();
         let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);

@@ -110,7 +110,7 @@ mod tests {
         trials.reverse();
         assert_eq!(open(&path, &trials).expect("the same journal").runs(), [runs[1].clone(), runs[0].clone()]);
         trials[0].threads = 2;
-        trials[1].case.time.courant = 0.25;
+        trials[1].case.time.courant = Some(0.25);
         assert_eq!(open(&path, &trials).expect("the same journal").runs(), [vec![], vec![]]);
         let other = Machine { cores: 999, ..Machine::here() };
         assert_eq!(Journal::open(&path, &study(2).trials, &other).expect("the same journal").runs(), [vec![], vec![]]);

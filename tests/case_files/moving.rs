@@ -138,3 +138,21 @@ fn expectations_of_points_that_move_take_their_own_keys_alone() {
         assert!(message.contains(&format!("expect.a.{key} is missing")), "{message}");
     }
 }
+
+#[test]
+fn steps_of_points_that_move_are_shorter_unless_the_case_says_otherwise() {
+    let courant = |text: &str, change: &str| {
+        let changes = [change.to_owned()];
+        let case = Case::from_text(text, Path::new("moving.toml"), &changes).expect("a case");
+        assert_eq!(case.time.courant, Some(case.courant()));
+        case.courant()
+    };
+    let open = GOOD.replace(", courant = 0.2", "");
+    for motion in ["lagrangian", "shifted"] {
+        assert!((courant(&open, &format!("effects.advection.motion={motion}")) - 0.2).abs() < 1e-12);
+    }
+    assert!((courant(&open, "time.courant=0.3") - 0.3).abs() < 1e-12);
+    let still = "title = 'still'\ndomain = { width = 1.0, height = 1.0 }\ncloud = { arrangement = 'regular', spacing = 0.1 }\n\
+                 fluid.density = 1.0\neffects.viscosity.kinematic = 0.01\ntime.end = 1.0\n";
+    assert!((courant(still, "title=still") - 0.8).abs() < 1e-12);
+}

@@ -71,6 +71,40 @@ fn shifted_points_run_the_collapse_to_the_wall_evenly_and_without_gaining_energy
     assert!(outcome.snapshot.position.iter().all(inside));
 }
 
+/// `sum x (y' of the velocity)` about the middle of the patch, m^2/s: the angular momentum over the mass of a point.
+fn turning(position: &[glam::DVec2], velocity: &[glam::DVec2]) -> f64 {
+    let middle = glam::DVec2::splat(1.5);
+    position.iter().zip(velocity).map(|(&place, &velocity)| (place - middle).perp_dot(velocity)).sum()
+}
+
+#[test]
+fn a_square_that_rotates_is_held_together_by_its_pressure_and_keeps_what_it_has() {
+    let (scene, outcome, rows) = run("rotating_square.toml", &["cloud.spacing=0.05", "time.end=1.0"]);
+    assert_eq!(outcome.stop, Stop::End);
+    // Colagrossi (2005): lap p = 2 rho omega^2 and p = 0 on the sides of a unit square, as a double sine series in its middle.
+    let odd = || (0..200).map(|k| f64::from(2 * k + 1));
+    let term = |m: f64, n: f64| {
+        let sign = if ((m + n) / 2.0) as i64 % 2 == 0 { -1.0 } else { 1.0 };
+        sign * 32.0 / (m * n * (m * m + n * n) * std::f64::consts::PI.powi(4))
+    };
+    let expected = -1000.0 * odd().flat_map(|m| odd().map(move |n| term(m, n))).sum::<f64>();
+    assert!((expected + 147.34).abs() < 0.01, "{expected}");
+    assert!((rows[0].sensors[0] / expected - 1.0).abs() < 0.03, "{:?}, {expected}", rows[0].sensors);
+    // It pulls on, no row peels off, and nothing is gained.
+    let last = rows.last().expect("rows");
+    assert!(last.sensors[0] < -80.0 && last.area < 1.1, "{last:?}");
+    assert!(rows.iter().all(|row| (energy(row) / energy(&rows[0]) - 1.0).abs() < 0.02 && row.lost == 0));
+    let snapshot = &outcome.snapshot;
+    let begun = turning(&scene.cloud.position, &scene.initial_velocity());
+    let ended = turning(&snapshot.position, &snapshot.velocity);
+    assert!((ended / begun - 1.0).abs() < 0.02, "{begun} {ended}");
+    // The corners have grown into arms.
+    let reach = |position: &[glam::DVec2]| {
+        position.iter().map(|place| (*place - glam::DVec2::splat(1.5)).length()).fold(0.0, f64::max)
+    };
+    assert!(reach(&snapshot.position) > 1.3 * reach(&scene.cloud.position));
+}
+
 #[test]
 fn water_at_rest_keeps_its_pressure_and_its_level() {
     let (_, outcome, rows) = run("hydrostatic_shifted.toml", &["time.end=1.5"]);

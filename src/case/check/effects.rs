@@ -157,7 +157,7 @@ fn check_pair(pressure: &Pressure) -> Result<(), Fault> {
 
 fn check_remap(case: &Case) -> Result<(), Fault> {
     let forward = case.effects.advection.as_ref().is_some_and(|advection| advection.remap == Remap::Forward);
-    if forward && case.time.courant > LONGEST_FORWARD {
+    if forward && case.courant() > LONGEST_FORWARD {
         let reason = "must be at most 1 with effects.advection.remap = \"forward\", whose errors grow beyond; \
                       use \"departure\" for longer steps";
         return Err(Fault::reason("time.courant", reason));

@@ -46,7 +46,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
 fn check_time(case: &Case) -> Result<(), Fault> {
     let time = &case.time;
     require(time.end > 0.0, "time.end")?;
-    require(time.courant > 0.0 && time.courant <= 50.0, "time.courant")?;
+    require(case.courant() > 0.0 && case.courant() <= 50.0, "time.courant")?;
     require(time.steady.is_none_or(|change| change > 0.0), "time.steady")?;
     if time.steady.is_some() && !case.velocity_changes() {
         return Err(Fault::reason(

@@ -79,7 +79,7 @@ fn check_flow(case: &Case) -> Result<(), Fault> {
     if case.effects.advection.as_ref().is_some_and(|advection| advection.remap == Remap::Forward) {
         return stray("effects.advection.remap", "must be left out: nothing is carried back");
     }
-    if case.time.step.is_none() && case.time.courant > LONGEST_STEP {
+    if case.time.step.is_none() && case.courant() > LONGEST_STEP {
         return stray("time.courant", &format!("must be at most {LONGEST_STEP}"));
     }
     Ok(())

@@ -23,7 +23,7 @@ pub const THRESHOLD: f64 = 0.97;
 
 /// Beside fits a point is spray where its density is below this, or where it has fewer than [`FEW`] of a lattice's neighbours:
 /// images behind a wall cover it, and do not carry a fit.
-pub const THIN: f64 = 0.75;
+pub const THIN: f64 = 0.65;
 pub const FEW: f64 = 0.25;
 
 /// The directions as unit vectors.
