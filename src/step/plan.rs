@@ -314,6 +314,9 @@ impl Plan {
             }
         } else if explicit {
             kick.push(Viscosity(Stage::Start));
+            if effects.drag.is_some() {
+                kick.push(Drag);
+            }
             if reflects {
                 kick.push(EstimateMiddle);
                 if pushes_walls {
@@ -324,6 +327,9 @@ impl Plan {
                 }
                 kick.extend(&weight);
                 kick.push(Viscosity(Stage::Middle));
+                if effects.drag.is_some() {
+                    kick.push(Drag);
+                }
             }
         }
         let lagged = implicit && effects.pressure.is_some();

@@ -11,6 +11,7 @@ mod spoiled;
 
 mod carried;
 mod clouds;
+mod drag;
 mod energy;
 mod exact;
 mod fallback;

@@ -101,6 +101,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::HeatWalls(Stage::Start),
         Operation::HeatWalls(Stage::Middle),
         Operation::EstimateMiddle,
+        Operation::Drag,
         Operation::ImplicitViscosity,
         Operation::ImplicitKick,
         Operation::PredictImplicit,
