@@ -1,6 +1,7 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
 mod carried;
+mod drag;
 mod sides;
 
 use glam::DVec2;
@@ -68,6 +69,8 @@ pub struct Constants {
     pub density: f64,
     /// Kinematic viscosity, m^2/s; 0 without viscosity.
     pub viscosity: f64,
+    /// Forchheimer's coefficient over Darcy's, `F k / nu`, s/m; 0 without drag.
+    pub drag_inertia: f64,
     /// Where on the way back to a departure point the velocity is taken, over the step.
     pub trace: f64,
     /// m/s^2; 0 without gravity.
@@ -174,6 +177,7 @@ impl Scene {
             density: case.fluid.density,
             viscosity: case.effects.viscosity.as_ref().map_or(0.0, |viscosity| viscosity.kinematic),
             gravity: case.effects.gravity.as_ref().map_or(DVec2::ZERO, |gravity| gravity.acceleration.into()),
+            drag_inertia: 0.0,
             trace: if case.velocity_changes() { 1.0 } else { 0.5 },
             lift: DVec2::ZERO,
             reference_temperature: 0.0,
@@ -194,6 +198,9 @@ impl Scene {
         if let Some(buoyancy) = &case.effects.buoyancy {
             constants.lift = -buoyancy.expansion * constants.gravity;
             constants.reference_temperature = buoyancy.reference;
+        }
+        if let Some(drag) = &case.effects.drag {
+            constants.drag_inertia = drag.inertia * drag.permeability / constants.viscosity;
         }
         let (exact, groups) = (Exact::of(case), apart.map_or(1, |(_, groups)| groups));
         Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups, open })
@@ -327,6 +334,7 @@ impl Scene {
         let weight = self.constants.density * self.balanced_gravity();
         let hydrostatic: Vec<f64> = cloud.position.iter().map(|place| weight.dot(*place)).collect();
         data.push((Buffer::MeanPressure, self.scalars(&hydrostatic, 0.0)));
+        data.extend(drag::resistance(self));
         data.extend(carried::initial(self, &volume));
         data.extend(sides::rows(self, &self.open));
         data.push(sides::outlets(self));

@@ -16,7 +16,8 @@ impl SideName {
 impl Case {
     /// True where some effect changes the velocity: not where it is prescribed, nor where fluid at rest only conducts.
     pub fn velocity_changes(&self) -> bool {
-        let Effects { viscosity, pressure, advection, gravity, heat: _, buoyancy, tracers: _ } = &self.effects;
+        // Drag asks for viscosity.
+        let Effects { viscosity, pressure, advection, gravity, drag: _, heat: _, buoyancy, tracers: _ } = &self.effects;
         let pushed = viscosity.is_some() || pressure.is_some() || gravity.is_some() || buoyancy.is_some();
         pushed || (advection.is_some() && !self.is_solved_by(Solution::Rotation))
     }

@@ -62,6 +62,12 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("effects.advection.motion", r#""fixed", "lagrangian" or "shifted""#),
     ("effects.advection.remap", r#""departure" or "forward""#),
     ("effects.gravity.acceleration", "two numbers [along x, along y], m/s^2, not both 0"),
+    ("effects.drag.permeability", "a number above 0, m^2"),
+    ("effects.drag.inertia", "a number from 0, 1/m"),
+    ("effects.drag.circle", "a table with the keys centre, radius"),
+    ("effects.drag.circle.centre", "a place [x, y], m"),
+    ("effects.drag.circle.radius", "a length above 0, m"),
+    ("effects.drag.polygon", "three or more corners [[x, y], ...], m, in order"),
     ("effects.heat.diffusivity", "a number above 0, m^2/s"),
     ("effects.heat.initial", "a number, K"),
     ("effects.buoyancy.expansion", "a number other than 0, 1/K"),
@@ -176,7 +182,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 26] = [
+        let tables: [(&str, &[&str]); 28] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("cloud.fill", fields::<Fill>()),
@@ -193,6 +199,8 @@ mod tests {
             ("effects.pressure", fields::<Pressure>()),
             ("effects.advection", fields::<Advection>()),
             ("effects.gravity", fields::<Gravity>()),
+            ("effects.drag", fields::<Drag>()),
+            ("effects.drag.circle", fields::<Circle>()),
             ("effects.heat", fields::<Heat>()),
             ("effects.buoyancy", fields::<Buoyancy>()),
             ("effects.tracers", fields::<Tracer>()),

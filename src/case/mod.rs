@@ -251,6 +251,7 @@ pub struct Effects {
     pub pressure: Option<Pressure>,
     pub advection: Option<Advection>,
     pub gravity: Option<Gravity>,
+    pub drag: Option<Drag>,
     pub heat: Option<Heat>,
     pub buoyancy: Option<Buoyancy>,
     #[serde(default)]
@@ -384,6 +385,20 @@ pub enum Remap {
 pub struct Gravity {
     /// m/s^2
     pub acceleration: [f64; 2],
+}
+
+/// A porous body that the fluid passes through: everywhere, or in a circle or a polygon.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// Darcy's permeability, m^2.
+    pub permeability: f64,
+    /// Forchheimer's coefficient, 1/m.
+    #[serde(default)]
+    pub inertia: f64,
+    pub circle: Option<Circle>,
+    /// Corners in order, either way round, m.
+    pub polygon: Option<Vec<[f64; 2]>>,
 }
 
 /// A temperature that the flow carries and that conducts.

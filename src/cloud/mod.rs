@@ -11,7 +11,7 @@ mod open;
 mod outline;
 mod period;
 mod relaxation;
-mod shape;
+pub(crate) mod shape;
 mod sizing;
 pub mod voronoi;
 mod wall;

@@ -155,6 +155,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("BOUNCE_DISTANCE", scene.bounce_distance()),
         ("BOUNCE_RESTITUTION", collide::RESTITUTION),
         ("TRACE", constants.trace),
+        ("DRAG_INERTIA", constants.drag_inertia),
         ("REFERENCE_TEMPERATURE", constants.reference_temperature),
         ("LATTICE_DENSITY", constants.lattice.density),
         ("LATTICE_SPREAD", constants.lattice.spread),

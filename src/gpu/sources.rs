@@ -108,6 +108,7 @@ pub(super) fn stages(operation: Operation, plan: &Plan) -> Stages {
         Operation::Buoyancy => once(stage!("buoyancy", Points)),
         Operation::EstimateMiddle => once(stage!("estimate_middle", Points)),
         Operation::Viscosity(_) => once(stage!("viscosity", Points)),
+        Operation::Drag => once(stage!("drag", Points)),
         Operation::ImplicitViscosity => Stages::Solve {
             check: vec![stage!("implicit_viscosity/residual", Check), stage!("implicit_viscosity/judge")],
             iterate: vec![
@@ -300,6 +301,8 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "matrix" if conservative => text!("matrix/conservative"),
         "matrix" if integral => text!("matrix/symmetric"),
         "matrix" => text!("matrix/collocated"),
+        "mean_kick_of" if scene.plan.kick.contains(&Operation::Reflect) => text!("mean_kick/kept"),
+        "mean_kick_of" => text!("mean_kick/none"),
         "viscous_matrix" => text!("viscous_matrix"),
         "viscous_diagonal" => text!("viscous_diagonal"),
         "density" if conservative => text!("density/conservative"),

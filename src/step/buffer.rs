@@ -107,6 +107,8 @@ pub enum Buffer {
     Pressure,
     /// Right side of the pressure equation.
     Source,
+    /// What a porous body takes of a velocity, `nu / k`, 1/s; 0 where there is none. Drag alone.
+    Resistance,
     /// The velocity in the middle of the kick, viscosity taken there, m/s; interleaved. Implicit viscosity alone, as the
     /// six below.
     Middle,
@@ -205,6 +207,7 @@ impl Buffer {
             Buffer::ScalarMiddle => ("scalar_middle", None),
             Buffer::Pressure => ("pressure", None),
             Buffer::Source => ("source", None),
+            Buffer::Resistance => ("resistance", None),
             Buffer::Middle => ("middle", None),
             Buffer::ViscousResidual => ("viscous_residual", None),
             Buffer::ViscousDirection => ("viscous_direction", None),

@@ -15,6 +15,7 @@ pub enum Effect {
     Gravity,
     Buoyancy,
     Viscosity,
+    Drag,
     Pressure,
     /// Slip sides and outlets.
     Sides,
@@ -31,6 +32,7 @@ impl Display for Effect {
             Effect::Gravity => "gravity",
             Effect::Buoyancy => "buoyancy",
             Effect::Viscosity => "viscosity",
+            Effect::Drag => "drag",
             Effect::Pressure => "pressure",
             Effect::Sides => "sides",
             Effect::Step => "step",
@@ -63,6 +65,7 @@ impl Operation {
             Gravity | HoldWalls => Effect::Gravity,
             Buoyancy => Effect::Buoyancy,
             Viscosity(_) | EstimateMiddle | ImplicitViscosity | ImplicitKick => Effect::Viscosity,
+            Drag => Effect::Drag,
             PredictImplicit | AddMeanPressure | RelaxPressure | MeanKickByFit | MeanKickByAdjoint => Effect::Viscosity,
             AssembleCollocated | Divergence | DivergenceByFit | AddWallFlux | CollocatedSource | Coarsen
             | ConjugateGradient | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => {

@@ -114,6 +114,8 @@ pub enum Operation {
     Buoyancy,
     /// Adds `dt nu lap u` to the kick.
     Viscosity(Stage),
+    /// Adds the drag of a porous body to the kick.
+    Drag,
     /// Solves for the velocity in the middle of the kick, viscosity taken there: `(V + dt nu K) u_m = V b`.
     ImplicitViscosity,
     /// Adds what viscosity did to the kick, `u_m - b`.
@@ -225,6 +227,7 @@ impl Operation {
             Operation::Gravity => "gravity",
             Operation::Buoyancy => "buoyancy",
             Operation::Viscosity(_) => "viscosity",
+            Operation::Drag => "drag",
             Operation::ImplicitViscosity => "implicit_viscosity",
             Operation::ImplicitKick => "implicit_kick",
             Operation::PredictImplicit => "predict_implicit",
@@ -347,6 +350,8 @@ impl Operation {
             Operation::Buoyancy => vec![Carried(super::Carried::Temperature)],
             Operation::EstimateMiddle => vec![Velocity, PressureKick],
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
+            Operation::Drag if plan.kick.contains(&Operation::Reflect) => vec![Velocity, Resistance, PressureKick],
+            Operation::Drag => vec![Velocity, Resistance],
             Operation::ImplicitViscosity => with(faces.to_vec(), &[FaceSum, Volume, Projected]),
             Operation::ImplicitKick => vec![Middle, Projected],
             Operation::PredictImplicit => vec![Middle, PressureKick, Kick],
@@ -416,7 +421,11 @@ impl Operation {
             Operation::Diffuse(_, Stage::Start) | Operation::HeatWalls(Stage::Start) => vec![ScalarMiddle],
             Operation::HeatWalls(Stage::Middle) => vec![Carried(super::Carried::Temperature)],
             Operation::MovePoints => vec![Position(Points::Moved)],
-            Operation::ClearKick | Operation::Gravity | Operation::Buoyancy | Operation::Viscosity(_) => vec![Kick],
+            Operation::ClearKick
+            | Operation::Gravity
+            | Operation::Buoyancy
+            | Operation::Viscosity(_)
+            | Operation::Drag => vec![Kick],
             Operation::ImplicitViscosity => vec![Middle, ViscousResidual, ViscousDirection, ViscousProduct],
             Operation::ImplicitKick => vec![Kick],
             Operation::RelaxPressure => vec![MeanPressure],

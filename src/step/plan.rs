@@ -330,6 +330,9 @@ impl Plan {
             }
         } else if explicit {
             kick.push(Viscosity(Stage::Start));
+            if effects.drag.is_some() {
+                kick.push(Drag);
+            }
             if reflects {
                 kick.push(EstimateMiddle);
                 if pushes_walls {
@@ -340,6 +343,9 @@ impl Plan {
                 }
                 kick.extend(&weight);
                 kick.push(Viscosity(Stage::Middle));
+                if effects.drag.is_some() {
+                    kick.push(Drag);
+                }
             }
         }
         let lagged = implicit && effects.pressure.is_some();

@@ -95,6 +95,10 @@ impl Engine for Timed<'_> {
         self.inner.solve_info()
     }
 
+    fn viscous_solve_info(&self) -> Option<SolveInfo> {
+        self.inner.viscous_solve_info()
+    }
+
     fn measure(&mut self, elapsed: f64) -> Result<Measurement, EngineError> {
         self.read_timed(|engine| engine.measure(elapsed))
     }

@@ -141,7 +141,7 @@ fn a_wrong_set_is_named() {
     for (given, expected) in [
         ("cloud.spacng=0.1", "--set cloud.spacng=0.1: cloud.spacng is not a key (did you mean cloud.spacing?)"),
         ("nu=1", "--set nu=1: nu is not a key; a case file has title"),
-        ("effects.drag.factor=1", "--set effects.drag.factor=1: effects.drag is not a key; [effects] has viscosity"),
+        ("effects.lift.factor=1", "--set effects.lift.factor=1: effects.lift is not a key; [effects] has viscosity"),
         ("cloud.spacing=-1", "--set cloud.spacing=-1: cloud.spacing = -1: must be a length above 0, m"),
         ("cloud.spacing=0.1m", "--set cloud.spacing=0.1m: cloud.spacing = \"0.1m\": must be a length above 0, m"),
         ("cloud.spacing.x=1", "--set cloud.spacing.x=1: cloud.spacing is not a table"),
@@ -389,4 +389,56 @@ fn what_does_not_go_with_a_problem_without_time_is_named() {
         assert!(error.contains(key) && error.contains(words), "{overrides:?}: {error}, not {expected}");
         assert!(!error.contains('\n'), "{error}");
     }
+}
+
+/// Implicit viscosity and drag, and what does not go with them.
+#[test]
+fn what_does_not_go_with_implicit_viscosity_or_with_drag_is_named() {
+    let (implicit, drag) = ("effects.viscosity.scheme=implicit", "effects.drag.permeability=0.1");
+    for (overrides, expected) in [
+        (
+            &[implicit, "effects.pressure.form=collocated"][..],
+            "effects.viscosity.scheme: must be \"explicit\" with effects.pressure.form = \"collocated\"",
+        ),
+        (
+            &[implicit, "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.0] }", "boundaries.right.kind=outlet"],
+            "effects.viscosity.scheme: must be \"explicit\" with boundaries.*.kind",
+        ),
+        (&["effects.viscosity.tolerance=1e-3"], "effects.viscosity.tolerance: belongs to a solve"),
+        (&[implicit, "effects.viscosity.tolerance=0.0"], "effects.viscosity.tolerance: must be a number above 0"),
+        (&["effects.viscosity.scheme=soon"], "effects.viscosity.scheme: must be \"explicit\" or \"implicit\""),
+        (&[implicit, drag], "effects.drag: goes with effects.viscosity.scheme = \"explicit\" alone"),
+        (&["effects.drag.permeability=0.0"], "effects.drag.permeability: must be a number above 0"),
+        (&[drag, "effects.drag.inertia=-1.0"], "effects.drag.inertia: must be a number from 0"),
+        (&[drag, "effects.drag.polygon=[[0.1, 0.1], [0.2, 0.2]]"], "effects.drag.polygon: must be three or more"),
+        (
+            &[
+                drag,
+                "effects.drag.circle={ centre = [0.5, 0.5], radius = 0.1 }",
+                "effects.drag.polygon=[[0.1, 0.1], [0.2, 0.2], [0.1, 0.2]]",
+            ],
+            "effects.drag.polygon: there is a circle",
+        ),
+        (&[drag, "effects.drag.circle={ centre = [0.5, 0.5], radius = 0.0 }"], "effects.drag.circle.radius: must be a"),
+    ] {
+        let overrides: Vec<String> = overrides.iter().map(|given| (*given).to_owned()).collect();
+        let error = Case::from_text(GOOD, Path::new("bad.toml"), &overrides).expect_err("a mistake").to_string();
+        let (key, words) = expected.split_once(": ").expect("a key and words");
+        assert!(error.contains(key) && error.contains(words), "{overrides:?}: {error}, not {expected}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+    let moving = "effects.advection={ motion = 'shifted' }";
+    let text = "title = 'a column'\n\
+                domain = { width = 3.0, height = 2.5 }\n\
+                cloud = { arrangement = 'regular', spacing = 0.1, fill = { from = [0.0, 0.0], to = [1.0, 1.5] } }\n\
+                fluid.density = 2.0\neffects.viscosity.kinematic = 0.01\neffects.pressure = {}\n\
+                time = { end = 1.0, courant = 0.2 }\n";
+    for (change, expected) in [(implicit, "with points that move"), (drag, "left out with points that move")] {
+        let overrides = [moving, change].map(str::to_owned);
+        let error = Case::from_text(text, Path::new("bad.toml"), &overrides).expect_err("a mistake").to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    let inviscid = GOOD.replace("[effects.viscosity]\nkinematic = 0.01\n", "");
+    let error = Case::from_text(&inviscid, Path::new("bad.toml"), &[drag.to_owned()]).expect_err("no viscosity");
+    assert!(error.to_string().contains("the table effects.viscosity is absent"), "{error}");
 }

@@ -12,6 +12,7 @@ mod spoiled;
 mod carried;
 mod clouds;
 mod coarse;
+mod drag;
 mod energy;
 mod exact;
 mod fallback;

@@ -152,8 +152,9 @@ fn stokes_flow_is_right_in_steps_of_50_to_1000_times_the_explicit_limit() {
             assert!(off.into_iter().all(|off| off < 0.01), "{splitting}, {times}: {off:?}");
             assert!(outcome.warnings.is_empty() && outcome.fallbacks == 0, "{times}: {:?}", outcome.warnings);
             assert!(rows.iter().all(|row| row.max_speed <= 1.0 + 1e-9), "{splitting}, {times}");
+            assert!(rows.iter().any(|row| row.viscous_iterations.is_some_and(|solve| solve > 10)), "{rows:?}");
             let last = rows.last().expect("a row");
-            assert!(last.change < 0.1 && last.viscous_iterations.is_some_and(|solve| solve > 0), "{last:?}");
+            assert!(last.change < 0.1, "{last:?}");
         }
     }
 }
@@ -178,9 +179,11 @@ fn a_flow_with_everything_ends_where_explicit_viscosity_takes_it() {
     let end = ["cloud.arrangement=jittered", "effects.viscosity.kinematic=0.05", "time.end=6.0"];
     let explicit = run(&cavity(&end)).0;
     let implicit = run(&cavity(&[&end[..], &[IMPLICIT]].concat())).0;
-    let off = explicit.snapshot.velocity.iter().zip(&implicit.snapshot.velocity).map(|(a, b)| (*a - *b).length());
-    let off = off.fold(0.0, most);
-    assert!(off > 1e-6 && off < 0.03, "{off}");
+    let off =
+        explicit.snapshot.velocity.iter().zip(&implicit.snapshot.velocity).map(|(a, b)| (*a - *b).length_squared());
+    let off = (off.sum::<f64>() / explicit.snapshot.velocity.len() as f64).sqrt();
+    // m/s; at the ends of the lid alone it is more.
+    assert!(off > 1e-6 && off < 0.02, "{off}");
     assert!(implicit.steps < explicit.steps, "{} and {} steps", implicit.steps, explicit.steps);
 }
 

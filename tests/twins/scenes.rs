@@ -142,6 +142,9 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     {
         scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
     }
+    for (name, changes) in POROUS {
+        scenes.push((name, Arc::new(of(changes))));
+    }
     for (name, changes) in IMPLICIT {
         scenes.push((name, Arc::new(of(changes))));
     }
@@ -256,6 +259,21 @@ pub const OPEN: [&str; 6] = [
     "boundaries.top={ kind = 'slip' }",
     GRAVITY,
     "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
+
+/// Porous bodies: with half kicks, and with whole ones, of which no mean pressure is kept.
+const POROUS: [(&str, &[&str]); 2] = [
+    (
+        "a porous circle",
+        &[
+            "cloud.arrangement=jittered",
+            "effects.drag={ permeability = 1e-3, inertia = 2.0, circle = { centre = [0.4, 0.6], radius = 0.25 } }",
+        ],
+    ),
+    (
+        "porous everywhere, projection",
+        &["cloud.arrangement=jittered", "time.splitting=projection", "effects.drag.permeability=1e-3"],
+    ),
 ];
 
 /// Viscosity that is solved for, far beyond the steps that would be stable without.

@@ -22,7 +22,7 @@ fn measured(name: &str, overrides: &[&str]) -> Vec<ExpectationResult> {
     evaluate(&case, &outcome.snapshot, &profiles(&case).expect("profiles")).expect("measurements")
 }
 
-const CASES: [&str; 11] = [
+const CASES: [&str; 12] = [
     "taylor_green.toml",
     "kovasznay.toml",
     "derivatives.toml",
@@ -34,6 +34,7 @@ const CASES: [&str; 11] = [
     "channel.toml",
     "stokes_cavity.toml",
     "creeping_cavity.toml",
+    "brinkman.toml",
 ];
 
 #[test]
@@ -61,6 +62,7 @@ fn errors_beyond_their_tolerance_are_missed() {
         ("rotating_tracer.toml", "method.order=2"),
         ("stokes_cavity.toml", "cloud.spacing=0.125"),
         ("creeping_cavity.toml", "effects.pressure.tolerance=1e-6"),
+        ("brinkman.toml", "effects.drag.permeability=0.011"),
     ] {
         assert!(measured(name, &[spoiled]).iter().all(|row| !row.pass), "{name} with {spoiled}");
     }

@@ -2,8 +2,8 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Boundaries, Case, Divergence, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Scheme, Solver,
-    Time,
+    Boundaries, Case, Divergence, Drag, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Scheme,
+    Solver, Time,
 };
 use super::require;
 
@@ -47,7 +47,32 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     if let Some(gravity) = &case.effects.gravity {
         require(gravity.acceleration != [0.0, 0.0], "effects.gravity.acceleration")?;
     }
+    case.effects.drag.as_ref().map_or(Ok(()), |drag| check_drag(case, drag))?;
     check_remap(case)
+}
+
+fn check_drag(case: &Case, drag: &Drag) -> Result<(), Fault> {
+    let stray = |reason: &str| Err(Fault::reason("effects.drag", reason));
+    if case.effects.viscosity.is_none() {
+        return stray("is that of viscosity in narrow ways, and the table effects.viscosity is absent");
+    }
+    if case.implicit_viscosity() {
+        return stray("goes with effects.viscosity.scheme = \"explicit\" alone");
+    }
+    if case.moves() {
+        return stray("must be left out with points that move (effects.advection.motion)");
+    }
+    if case.exact.is_some() {
+        return stray("has no place in the exact solution (exact.solution); leave out one of them");
+    }
+    require(drag.permeability > 0.0, "effects.drag.permeability")?;
+    require(drag.inertia >= 0.0, "effects.drag.inertia")?;
+    require(drag.circle.as_ref().is_none_or(|circle| circle.radius > 0.0), "effects.drag.circle.radius")?;
+    require(drag.polygon.as_ref().is_none_or(|corners| corners.len() >= 3), "effects.drag.polygon")?;
+    match (&drag.circle, &drag.polygon) {
+        (Some(_), Some(_)) => Err(Fault::reason("effects.drag.polygon", "there is a circle; leave one out")),
+        _ => Ok(()),
+    }
 }
 
 /// Implicit viscosity goes through the faces of the cells, between velocities that are given on every side.
@@ -67,7 +92,7 @@ fn check_implicit(case: &Case) -> Result<(), Fault> {
 
 /// Problems without time: what they leave no room for, and what they need.
 fn check_problem(case: &Case) -> Result<(), Fault> {
-    let Effects { viscosity, pressure, advection, gravity, heat, buoyancy, tracers } = &case.effects;
+    let Effects { viscosity, pressure, advection, gravity, drag, heat, buoyancy, tracers } = &case.effects;
     let name = if case.derivatives.is_some() { "derivatives" } else { "poisson" };
     let stray = |key: &str| Err(Fault::reason(key, format!("belongs to a flow, and there is [{name}]; leave one out")));
     if case.derivatives.is_some() && case.poisson.is_some() {
@@ -76,7 +101,7 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if case.time != Time::default() {
         return stray("time");
     }
-    let others = gravity.is_some() || heat.is_some() || buoyancy.is_some() || !tracers.is_empty();
+    let others = gravity.is_some() || drag.is_some() || heat.is_some() || buoyancy.is_some() || !tracers.is_empty();
     if viscosity.is_some() || advection.is_some() || others || (pressure.is_some() && case.derivatives.is_some()) {
         return stray("effects");
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
 use crate::cpu::operations::open_sides::Open;
-use crate::cpu::operations::{conservative, derivative, gravity, kick, open_sides};
+use crate::cpu::operations::{conservative, derivative, drag, gravity, kick, open_sides};
 use crate::cpu::real::Real;
 use crate::engine::{Clock, EngineError};
 use crate::step::{Buffer, Operation};
@@ -34,6 +34,16 @@ impl<T: Real> CpuEngine<T> {
                 with_taken!(self.fields, [kick = Buffer::Kick], {
                     let field = self.fields.real(stage.velocity())?;
                     derivative::viscosity(self.laplacian()?, field, diffusion, self.forced(), &mut kick);
+                });
+            }
+            Operation::Drag => {
+                with_taken!(self.fields, [kick = Buffer::Kick], {
+                    let (velocity, mean) =
+                        (self.fields.real(Buffer::Velocity)?, self.fields.real(Buffer::PressureKick));
+                    let resistance = self.fields.real(Buffer::Resistance)?;
+                    let (inertia, time) = (T::from_f64(constants.drag_inertia), T::from_f64(clock.kick));
+                    let body = drag::Body { resistance, inertia, time, interior: sizes.interior };
+                    drag::drag(body, velocity, mean.ok(), &mut kick);
                 });
             }
             Operation::Predict => {

@@ -147,6 +147,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             Operation::ClearKick
             | Operation::Gravity
             | Operation::EstimateMiddle
+            | Operation::Drag
             | Operation::Viscosity(_)
             | Operation::Predict
             | Operation::CorrectByFit

@@ -9,6 +9,7 @@ pub mod conjugate_gradient;
 pub mod conservative;
 pub mod derivative;
 pub mod diffuse;
+pub mod drag;
 pub mod fit;
 pub mod fits;
 pub mod gravity;

@@ -37,7 +37,7 @@ end = 1.0
 "#;
 
 /// What the scenes of the tests change in it.
-const CHANGES: [&[&str]; 7] = [
+const CHANGES: [&[&str]; 9] = [
     &[],
     &["effects.pressure.gradient=\"adjoint\"", "effects.pressure.solver=\"bicgstab\"", "method.weight=\"none\""],
     &[
@@ -53,6 +53,8 @@ const CHANGES: [&[&str]; 7] = [
         "cloud.arrangement=\"random\"",
         "time.splitting=\"projection\"",
     ],
+    &["effects.drag={ permeability = 1e-3, inertia = 2.0, circle = { centre = [0.4, 0.5], radius = 0.2 } }"],
+    &["effects.drag.permeability=1e-2", "time.splitting=\"projection\""],
     &["effects.viscosity.scheme=\"implicit\"", "effects.viscosity.tolerance=1e-9"],
     &[
         "effects.viscosity.scheme=\"implicit\"",

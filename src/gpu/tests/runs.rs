@@ -150,6 +150,19 @@ fn a_field_that_is_not_a_number_stops_the_run_there() {
 }
 
 #[test]
+fn a_viscous_solve_that_meets_no_number_stops_the_run_there() {
+    let scene = scene(&["effects.viscosity.scheme=\"implicit\""]);
+    let (clock, moving) = (scene.clock(0.005), scene.plan.moving());
+    let Some(mut engine) = engine(scene, Precision::Single) else { return };
+    engine.advance(2, &clock).expect("steps");
+    let mut velocity = reals(&mut engine, moving);
+    velocity[2 * 100] = f64::NAN;
+    engine.write(moving, &Data::Real(velocity)).expect("write");
+    let done = engine.advance(3, &clock).expect("steps");
+    assert!(done.steps == 1 && done.trouble.is_some_and(|found| found.buffer == Buffer::Projected), "{done:?}");
+}
+
+#[test]
 fn a_solve_that_runs_out_of_iterations_is_handed_to_the_direct_solver() {
     let scene = scene(&["effects.pressure.max_iterations=3"]);
     let clock = scene.clock(0.005);

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
+use crate::gpu::layout::{Scalar, Time, Word};
 use crate::gpu::prelude::prelude;
 use crate::gpu::program::{end_step_stages, measured_arrays};
 use crate::gpu::sources::{self, Stages};
@@ -101,6 +102,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::HeatWalls(Stage::Start),
         Operation::HeatWalls(Stage::Middle),
         Operation::EstimateMiddle,
+        Operation::Drag,
         Operation::ImplicitViscosity,
         Operation::ImplicitKick,
         Operation::PredictImplicit,
@@ -154,6 +156,19 @@ fn the_scenes_of_the_tests_use_every_operation() {
         all.extend([Stage::Start, Stage::Middle].map(|stage| Operation::Diffuse(field, stage)));
     }
     assert_eq!(used, all);
+}
+
+/// Kernels and host find them there.
+#[test]
+fn what_is_kept_of_the_viscous_solve_stands_behind_the_same_of_the_pressures() {
+    let mut found = 0;
+    for names in [Word::NAMES, Scalar::NAMES, Time::NAMES] {
+        for (before, name) in names.iter().zip(&names[1..]).filter(|(_, name)| name.contains("VISCOUS_")) {
+            assert_eq!(**before, name.replace("VISCOUS_", ""));
+            found += 1;
+        }
+    }
+    assert_eq!(found, 8);
 }
 
 #[test]
