@@ -142,6 +142,9 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     {
         scenes.push((name, Arc::new(of(&[&OPEN[..], &[solver.as_str()]].concat()))));
     }
+    for (name, more) in OPEN_COLLOCATED {
+        scenes.push((name, Arc::new(of(&[&OPEN[..], more].concat()))));
+    }
     scenes.push(("a channel that repeats", Arc::new(channel())));
     scenes.push(("obstacles in a lattice", Arc::new(with_obstacles("regular"))));
     scenes.push(("obstacles in relaxed points", Arc::new(with_obstacles("relaxed"))));
@@ -243,6 +246,18 @@ pub const OPEN: [&str; 6] = [
     "boundaries.top={ kind = 'slip' }",
     GRAVITY,
     "effects.tracers=[{ name = 'ink', diffusivity = 0.01, shape = 'box', centre = [0.0, 0.4], size = [0.5, 0.3] }]",
+];
+
+/// The same with the collocated pressure.
+const OPEN_COLLOCATED: [(&str, &[&str]); 2] = [
+    (
+        "inlet, outlet and slip, collocated, bicgstab",
+        &["effects.pressure.form=collocated", "effects.heat.diffusivity=0.02", "boundaries.left.temperature=1.0"],
+    ),
+    (
+        "inlet, outlet and slip, collocated, direct",
+        &["effects.pressure.form=collocated", "effects.pressure.solver=direct", "time.splitting=projection"],
+    ),
 ];
 
 /// A cavity heated from two sides, in which two tracers are carried.
