@@ -188,7 +188,7 @@ fn with_obstacles(arrangement: &str) -> Scene {
 
 fn obstacle(circle: Option<Circle>, polygon: Option<Vec<[f64; 2]>>) -> Obstacle {
     let name = if circle.is_some() { "ball" } else { "wedge" };
-    Obstacle { name: name.to_owned(), circle, polygon }
+    Obstacle { name: name.to_owned(), circle, polygon, parts: None }
 }
 
 /// A channel round a circle, which fluid flows through, its points closer around that; plain faces.
