@@ -45,6 +45,24 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("obstacles.circle.centre", "a place [x, y], m"),
     ("obstacles.circle.radius", "a length above 0, m"),
     ("obstacles.polygon", "three or more corners [[x, y], ...], m, in order"),
+    ("obstacles.parts", "tables, each with one of the keys circle, ellipse, box, capsule"),
+    ("obstacles.parts.circle", "a table with the keys centre, radius"),
+    ("obstacles.parts.circle.centre", "a place [x, y], m"),
+    ("obstacles.parts.circle.radius", "a length above 0, m"),
+    ("obstacles.parts.ellipse", "a table with the keys centre, axes"),
+    ("obstacles.parts.ellipse.centre", "a place [x, y], m"),
+    ("obstacles.parts.ellipse.axes", "two lengths above 0 [half its length, half its width], m"),
+    ("obstacles.parts.ellipse.turn", "an angle, degrees, anticlockwise"),
+    ("obstacles.parts.box", "a table with the keys centre, size"),
+    ("obstacles.parts.box.centre", "a place [x, y], m"),
+    ("obstacles.parts.box.size", "two lengths above 0 [width, height], m"),
+    ("obstacles.parts.box.corner", "a length from 0 to half its width and height, m"),
+    ("obstacles.parts.box.turn", "an angle, degrees, anticlockwise"),
+    ("obstacles.parts.capsule", "a table with the keys from, to, radius"),
+    ("obstacles.parts.capsule.from", "a place [x, y], m"),
+    ("obstacles.parts.capsule.to", "a place [x, y], m, not that of from"),
+    ("obstacles.parts.capsule.radius", "a length above 0, m"),
+    ("obstacles.parts.combine", r#""add", "subtract" or "intersect""#),
     ("method.operators", r#""interpolation" or "integral""#),
     ("method.order", "1, 2, 3 or 4"),
     ("method.radius", "a number above 1.5 and at most 5, in spacings"),
@@ -182,7 +200,7 @@ mod tests {
 
     #[test]
     fn the_table_holds_the_keys_of_the_types_and_no_others() {
-        let tables: [(&str, &[&str]); 28] = [
+        let tables: [(&str, &[&str]); 33] = [
             ("domain", fields::<Domain>()),
             ("cloud", fields::<Cloud>()),
             ("cloud.fill", fields::<Fill>()),
@@ -192,6 +210,11 @@ mod tests {
             ("cloud.refine", fields::<Refine>()),
             ("obstacles", fields::<Obstacle>()),
             ("obstacles.circle", fields::<Circle>()),
+            ("obstacles.parts", fields::<Part>()),
+            ("obstacles.parts.circle", fields::<Circle>()),
+            ("obstacles.parts.ellipse", fields::<Ellipse>()),
+            ("obstacles.parts.box", fields::<Block>()),
+            ("obstacles.parts.capsule", fields::<Capsule>()),
             ("fluid", fields::<Fluid>()),
             ("boundaries.*", fields::<Wall>()),
             ("method", fields::<Method>()),
@@ -230,7 +253,7 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let keys: [(&str, &[&str]); 19] = [
+        let keys: [(&str, &[&str]); 20] = [
             ("effects.pressure.divergence", words::<Divergence>()),
             ("domain.periodic", words::<Axes>()),
             ("exact.solution", words::<Solution>()),
@@ -245,6 +268,7 @@ mod tests {
             ("effects.advection.motion", words::<Motion>()),
             ("effects.advection.remap", words::<Remap>()),
             ("effects.tracers.shape", words::<Shape>()),
+            ("obstacles.parts.combine", words::<Combine>()),
             ("boundaries.any.kind", words::<SideKind>()),
             ("boundaries.any.profile", words::<SideProfile>()),
             ("effects.viscosity.scheme", words::<Scheme>()),

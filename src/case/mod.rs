@@ -22,7 +22,7 @@ pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, MOST_STEPS, SMAL
 pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use moving::{Fill, Initial, Motion, Sensor, Wave};
-pub use obstacle::{Circle, Obstacle, Refine, SIDES};
+pub use obstacle::{Block, Capsule, Circle, Combine, Ellipse, Obstacle, Part, Refine, SIDES};
 pub use reference::{Profile, ReferenceError};
 pub use text::TextError;
 

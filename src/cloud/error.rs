@@ -25,6 +25,8 @@ pub enum CloudError {
          and bodies and corners as wide as the spacing around them"
     )]
     Narrow { name: String, x: f64, y: f64 },
+    #[error("obstacles.{name}: its parts {fault}")]
+    Parts { name: String, fault: &'static str },
     #[error(
         "obstacles.{name}: nowhere deeper than {depth} m, and neighbours would see each other through it; allowed: at least one \
          spacing, {least} m"

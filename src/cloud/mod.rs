@@ -2,6 +2,7 @@
 
 mod arrangement;
 mod error;
+mod figure;
 mod fill;
 pub mod flux;
 pub mod grid;
@@ -10,6 +11,7 @@ mod layers;
 mod open;
 mod outline;
 mod period;
+mod piece;
 mod relaxation;
 pub(crate) mod shape;
 mod sizing;

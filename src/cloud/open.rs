@@ -31,8 +31,9 @@ const LEAST_PIVOT: f64 = 1e-8;
 pub fn open_points(cloud: &Cloud, boundaries: &Boundaries, spacings: f64) -> Vec<OpenPoint> {
     let kind = |side: &Side| side.wall(boundaries).kind;
     let follows = |side: &Side| matches!(kind(side), SideKind::Slip | SideKind::Outlet);
-    // A point of an obstacle is on no side, and rests.
-    let open = |sides: &[Side]| !sides.is_empty() && sides.iter().all(follows);
+    let slips = |sides: &[Side]| sides.iter().filter(|side| kind(side) == SideKind::Slip).count();
+    // A point of an obstacle is on no side, and rests; so does the corner of two slip sides, which nothing passes.
+    let open = |sides: &[Side]| !sides.is_empty() && sides.iter().all(follows) && slips(sides) < 2;
     let is_open = |point: usize| point >= cloud.interior && open(&cloud.sides[point - cloud.interior]);
     let grid = Grid::new(&cloud.position, cloud.size, cloud.period, spacings * cloud.spacing);
     let make = |point: usize| {

@@ -1,6 +1,6 @@
 //! Points on the outlines of obstacles.
 //!
-//! They lie about one spacing apart, every corner of a polygon among them. Half way between two of them is a place of the
+//! They lie about one spacing apart, every corner among them. Half way between two of them is a place of the
 //! outline that is equally far from both: there the cells of the two meet. No other point comes as near to that place as they
 //! do, so that every other cell ends before the outline.
 
@@ -17,6 +17,8 @@ use crate::case::Case;
 
 /// Spacings between an outline and another, or a side.
 const ROOM: f64 = 2.0;
+/// Narrowest slit in a body, spacings.
+const SLIT: f64 = 0.6;
 /// Points of the rule that integrates the number of spacings along a curve.
 const SAMPLES: usize = 4096;
 
@@ -29,8 +31,8 @@ pub struct Outline {
     pub points: Range<usize>,
     /// The place of the outline half way from each to the next, m.
     pub middle: Vec<DVec2>,
-    /// What the obstacle has beyond the straight way from each point to that place, and as much on to the next, m^2.
-    pub bulge: Vec<f64>,
+    /// What the obstacle has beyond the straight ways from each point to that place and from there to the next, m^2.
+    pub bulge: Vec<[f64; 2]>,
 }
 
 /// Places on an outline, anticlockwise, with what belongs to each.
@@ -40,7 +42,7 @@ pub struct Traced {
     pub place: Vec<DVec2>,
     /// As in [`Outline`].
     pub middle: Vec<DVec2>,
-    bulge: Vec<f64>,
+    bulge: Vec<[f64; 2]>,
     /// Out of the fluid.
     normal: Vec<DVec2>,
 }
@@ -53,7 +55,7 @@ fn trace(shape: &Shape, sizing: &Sizing) -> Traced {
             let halves: Vec<f64> = turns.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
             let segment = |pair: &[f64]| {
                 let angle = 0.5 * TAU * (pair[1] - pair[0]);
-                0.5 * radius * radius * (angle - angle.sin())
+                [0.5 * radius * radius * (angle - angle.sin()); 2]
             };
             let places = &turns[..turns.len() - 1];
             Traced {
@@ -74,10 +76,35 @@ fn trace(shape: &Shape, sizing: &Sizing) -> Traced {
                 for pair in shares.windows(2) {
                     traced.place.push(from + pair[0] * along);
                     traced.middle.push(from + 0.5 * (pair[0] + pair[1]) * along);
-                    traced.bulge.push(0.0);
+                    traced.bulge.push([0.0; 2]);
                     traced.normal.push(if pair[0] > 0.0 { normal } else { (before + normal).normalize_or(normal) });
                 }
                 before = normal;
+            }
+            traced
+        }
+        Shape::Figure(figure) => {
+            let runs = figure.runs();
+            let mut traced = Traced { place: vec![], middle: vec![], bulge: vec![], normal: vec![] };
+            let into = |along: DVec2| along.normalize().perp();
+            let mut before = runs.last().map_or(DVec2::ZERO, |last| into(last.velocity(last.end())));
+            for run in &runs {
+                // A length of 1 at a speed that varies.
+                let along = |share: f64| share * run.end();
+                let cuts = divided(1.0, &|share| {
+                    let s = along(share);
+                    sizing.at(run.at(s)) / (run.end() * run.velocity(s).length()).max(f64::MIN_POSITIVE)
+                });
+                for pair in cuts.windows(2) {
+                    let [from, to] = [pair[0], pair[1]].map(along);
+                    let middle = run.middle(from, to);
+                    let normal = into(run.velocity(from));
+                    traced.place.push(run.at(from));
+                    traced.middle.push(run.at(middle));
+                    traced.bulge.push([run.bulge(from, middle), run.bulge(middle, to)]);
+                    traced.normal.push(if from > 0.0 { normal } else { (before + normal).normalize_or(normal) });
+                }
+                before = into(run.velocity(run.end()));
             }
             traced
         }
@@ -118,17 +145,23 @@ pub fn outlines(case: &Case) -> Result<Vec<Traced>, CloudError> {
     let mut outlines = Vec::new();
     for (number, (obstacle, shape)) in case.obstacles.iter().zip(&shapes).enumerate() {
         let name = || obstacle.name.clone();
+        if let Shape::Figure(figure) = shape
+            && let Some(fault) = figure.fault()
+        {
+            return Err(CloudError::Parts { name: name(), fault });
+        }
         let (depth, deepest) = shape.deepest();
         let least = sizing.at(deepest);
         if depth < least {
             return Err(CloudError::Thin { name: name(), depth, least });
         }
         let traced = trace(shape, &sizing);
-        for &place in &traced.place {
+        for (&place, &normal) in traced.place.iter().zip(&traced.normal) {
             let walls = place.min(sizing.size() - place).min_element();
             let others = shapes.iter().enumerate().filter(|(other, _)| *other != number);
             let clear = others.map(|(_, other)| other.distance(place)).fold(walls, f64::min);
-            if clear < ROOM * sizing.at(place) {
+            let into_fluid = |way: f64| shape.distance(place - way * sizing.at(place) * normal);
+            if clear < ROOM * sizing.at(place) || [0.5 * SLIT, SLIT].into_iter().any(|way| into_fluid(way) <= 0.0) {
                 return Err(CloudError::Narrow { name: name(), x: place.x, y: place.y });
             }
         }

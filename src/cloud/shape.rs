@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
+use super::figure::Figure;
 use crate::case;
 
-/// Places along either side of a polygon's box that are looked at for its deepest one.
+/// Places along either side of a shape's box that are looked at for its deepest one.
 const SAMPLES: usize = 64;
 
 /// A closed figure.
@@ -16,10 +17,14 @@ pub enum Shape {
     },
     /// Corners, anticlockwise.
     Polygon(Vec<DVec2>),
+    Figure(Figure),
 }
 
 impl Shape {
     pub fn of(obstacle: &case::Obstacle) -> Self {
+        if let Some(parts) = &obstacle.parts {
+            return Shape::Figure(Figure::new(parts));
+        }
         match (&obstacle.circle, &obstacle.polygon) {
             (Some(circle), _) => Shape::Circle { centre: DVec2::from_array(circle.centre), radius: circle.radius },
             (None, corners) => {
@@ -51,6 +56,7 @@ impl Shape {
                 }
                 if inside { -nearest } else { nearest }
             }
+            Shape::Figure(figure) => figure.distance(place),
         }
     }
 
@@ -59,25 +65,26 @@ impl Shape {
         match self {
             Shape::Circle { radius, .. } => std::f64::consts::PI * radius * radius,
             Shape::Polygon(corners) => 0.5 * doubled(corners),
+            Shape::Figure(figure) => figure.area(),
         }
     }
 
     /// About how deep its deepest place is, and where that is, m.
     pub fn deepest(&self) -> (f64, DVec2) {
-        match self {
-            Shape::Circle { centre, radius } => (*radius, *centre),
+        let (low, high) = match self {
+            Shape::Circle { centre, radius } => return (*radius, *centre),
             Shape::Polygon(corners) => {
                 let first = corners.first().copied().unwrap_or_default();
-                let (low, high) =
-                    corners.iter().fold((first, first), |(low, high), &corner| (low.min(corner), high.max(corner)));
-                let place = |k: usize| {
-                    let share = DVec2::new((k % SAMPLES) as f64, (k / SAMPLES) as f64) + 0.5;
-                    low + share / SAMPLES as f64 * (high - low)
-                };
-                let depths = (0..SAMPLES * SAMPLES).map(|k| (-self.distance(place(k)), place(k)));
-                depths.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, first))
+                corners.iter().fold((first, first), |(low, high), &corner| (low.min(corner), high.max(corner)))
             }
-        }
+            Shape::Figure(figure) => figure.bounds(),
+        };
+        let place = |k: usize| {
+            let share = DVec2::new((k % SAMPLES) as f64, (k / SAMPLES) as f64) + 0.5;
+            low + share / SAMPLES as f64 * (high - low)
+        };
+        let depths = (0..SAMPLES * SAMPLES).map(|k| (-self.distance(place(k)), place(k)));
+        depths.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, low))
     }
 }
 
@@ -96,7 +103,12 @@ mod tests {
     use super::*;
 
     fn polygon(corners: &[[f64; 2]]) -> Shape {
-        Shape::of(&case::Obstacle { name: "body".to_owned(), circle: None, polygon: Some(corners.to_vec()) })
+        Shape::of(&case::Obstacle {
+            name: "body".to_owned(),
+            circle: None,
+            polygon: Some(corners.to_vec()),
+            parts: None,
+        })
     }
 
     #[test]

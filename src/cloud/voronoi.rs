@@ -157,7 +157,7 @@ fn corners(cloud: &Cloud) -> BTreeMap<usize, Corner> {
             let (point, before) = (outline.points.start + k, (k + count - 1) % count);
             let own = cloud.position[point];
             let ways = [outline.middle[before] - own, outline.middle[k] - own];
-            corners.insert(point, Corner { obstacle, ways, bulge: outline.bulge[before] + outline.bulge[k] });
+            corners.insert(point, Corner { obstacle, ways, bulge: outline.bulge[before][1] + outline.bulge[k][0] });
         }
     }
     corners

@@ -9,7 +9,8 @@ use crate::step::Buffer;
 /// What the body takes of the velocity at every point, `nu / k`, 1/s; 0 outside.
 pub(super) fn resistance(scene: &Scene) -> Option<(Buffer, Data)> {
     let drag = scene.case.effects.drag.as_ref()?;
-    let body = Obstacle { name: String::new(), circle: drag.circle.clone(), polygon: drag.polygon.clone() };
+    let body =
+        Obstacle { name: String::new(), circle: drag.circle.clone(), polygon: drag.polygon.clone(), parts: None };
     let everywhere = drag.circle.is_none() && drag.polygon.is_none();
     let shape = Shape::of(&body);
     let within = |place| everywhere || shape.distance(place) <= 0.0;

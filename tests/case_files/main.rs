@@ -275,8 +275,8 @@ fn what_does_not_go_with_heat_and_tracers_is_named() {
         ),
         (&[heat, "boundaries.right.kind=outlet"], "boundaries.right.kind: needs the pressure"),
         (
-            &["effects.pressure.form=collocated", "boundaries.right.kind=outlet"],
-            "boundaries.right.kind: belongs to the conservative form",
+            &["effects.pressure.form=collocated", "boundaries.left={ kind = 'inlet', velocity = [1.0, 0.0] }"],
+            "boundaries.left.kind: needs another side",
         ),
         (
             &["effects.pressure.form=conservative", "domain.periodic=x", "boundaries.right.kind=slip"],

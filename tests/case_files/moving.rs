@@ -26,6 +26,7 @@ fn load(overrides: &[&str]) -> Result<Case, String> {
 const MISTAKES: &[(&[&str], &str, &str)] = &[
     (&["domain.periodic=x"], "domain.periodic", "must be \"none\" with points that move"),
     (&["boundaries.top.velocity=[1.0, 0.0]"], "boundaries.top.velocity", "must be [0, 0] with points that move"),
+    (&["boundaries.top.kind=slip"], "boundaries.top.kind", "must be \"wall\", along which fluid slips, with points that move"),
     (&["effects.advection.remap=forward"], "effects.advection.remap", "must be left out: nothing is carried back"),
     (&["time.courant=0.6"], "time.courant", "must be at most 0.5 with points that move"),
     (&["method.order=3"], "method.order", "must be 2 with points that move"),

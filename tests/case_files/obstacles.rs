@@ -17,6 +17,13 @@ circle = { centre = [0.5, 0.5], radius = 0.1 }
 [[obstacles]]
 name = "wedge"
 polygon = [[1.0, 0.4], [1.3, 0.5], [1.0, 0.6]]
+[[obstacles]]
+name = "key"
+parts = [
+    { capsule = { from = [1.6, 0.3], to = [1.8, 0.7], radius = 0.06 } },
+    { box = { centre = [1.6, 0.3], size = [0.2, 0.16], corner = 0.03, turn = 10.0 } },
+    { ellipse = { centre = [1.6, 0.2], axes = [0.05, 0.04], turn = 20.0 }, combine = "subtract" },
+]
 "#;
 
 const MORE: &str = r#"[[cloud.refine]]
@@ -59,7 +66,7 @@ fn good() -> String {
 #[test]
 fn the_channel_is_good() {
     let case = load(&good(), &[]).expect("a good case");
-    assert_eq!((case.obstacles.len(), case.cloud.refine.len(), case.expect.len()), (2, 2, 3));
+    assert_eq!((case.obstacles.len(), case.cloud.refine.len(), case.expect.len()), (3, 2, 3));
     assert_eq!((case.cloud.refine[0].growth, case.cloud.refine[1].growth), (0.1, 0.2));
     let json = serde_json::to_string(&case).expect("a case as JSON");
     assert_eq!(serde_json::from_str::<stillpoint::case::Case>(&json).expect("a case from JSON"), case);
@@ -81,6 +88,18 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("[1.0, 0.6]]", "[1.0, 1.6]]", "must lie inside the domain"),
     ("[[1.0, 0.4], [1.3, 0.5], [1.0, 0.6]]", "[[1.0, 0.4], [1.3, 0.6], [1.3, 0.4], [1.0, 0.6]]", "the edge from corner 0 has no length, or touches another"),
     ("[1.3, 0.5], [1.0, 0.6]]", "[1.3, 0.5], [1.3, 0.5], [1.0, 0.6]]", "has no length, or touches another"),
+    ("radius = 0.06", "radius = 0.0", "obstacles[2].parts[0].capsule.radius = 0.0: must be a length above 0, m"),
+    ("to = [1.8, 0.7]", "to = [1.6, 0.3]", "obstacles[2].parts[0].capsule.to = [1.6, 0.3]: must be a place [x, y], m, not that of from"),
+    ("to = [1.8, 0.7]", "to = [1.97, 0.7]", "...: must lie inside the domain, 2 x 1 m"),
+    ("corner = 0.03", "corner = 0.09", "obstacles[2].parts[1].box.corner = 0.09: must be a length from 0 to half its width and height, m"),
+    ("size = [0.2, 0.16]", "size = [0.2, 0.0]", "obstacles[2].parts[1].box.size = [0.2, 0.0]: must be two lengths above 0"),
+    ("axes = [0.05, 0.04]", "axes = [0.05]", "obstacles[2].parts[2].ellipse.axes = [0.05]"),
+    ("axes = [0.05, 0.04]", "axes = [0.05, -0.04]", "obstacles[2].parts[2].ellipse.axes = [0.05, -0.04]: must be two lengths above 0"),
+    ("combine = \"subtract\"", "combine = \"cut\"", "obstacles[2].parts[2].combine = \"cut\": must be \"add\", \"subtract\" or \"intersect\""),
+    ("radius = 0.06 } }", "radius = 0.06 }, combine = \"intersect\" }", "obstacles[2].parts[0].combine = \"intersect\": there is nothing before the first part"),
+    ("{ box = {", "{ circle = { centre = [1.6, 0.3], radius = 0.1 }, box = {", "a part is one figure, of the keys circle, ellipse, box and capsule"),
+    ("{ box = {", "{ blob = {", "obstacles[2].parts[1].blob is not a key"),
+    ("name = \"key\"", "name = \"key\"\ncircle = { centre = [0.5, 0.5], radius = 0.1 }", "obstacles[2].parts = "),
     ("near = \"ball\"", "near = \"bal\"", "cloud.refine[0].near = \"bal\": must be the name of an obstacle"),
     ("near = \"ball\"\n", "", "cloud.refine[0].near is missing: it must be the name of an obstacle"),
     ("near = \"ball\"", "near = \"ball\"\nbox = [[0.0, 0.0], [1.0, 1.0]]", "cloud.refine[0].box = [[0.0, 0.0], [1.0, 1.0]]: there is near; leave one out"),

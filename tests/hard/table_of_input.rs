@@ -55,6 +55,24 @@ pub fn rows() -> Vec<Row> {
         "cloud={ arrangement = 'random', spacing = 0.0625, seed = 1e30 }",
         "cloud.seed = 1e30: must be a whole number from 0",
     );
+    // Bodies.
+    let ball = "{ circle = { centre = [0.5, 0.5], radius = 0.25 } }";
+    for (case, part, words) in [
+        (
+            "an obstacle with a hole half a spacing wide",
+            "{ circle = { centre = [0.5, 0.5], radius = 0.015 }, combine = 'subtract' }",
+            "make several bodies, or one with a hole",
+        ),
+        (
+            "an obstacle with a slit a third of a spacing wide",
+            "{ box = { centre = [0.7, 0.5], size = [0.3, 0.02] }, combine = 'subtract' }",
+            "another part of the boundary is too near",
+        ),
+        ("two bodies in one table", "{ circle = { centre = [0.9, 0.9], radius = 0.09 } }", "make several bodies"),
+    ] {
+        let key = format!("obstacles=[{{ name = 'it', parts = [{ball}, {part}] }}]");
+        rows.push(Row::of_flow(case, Promise::Refused(words), &from_keys(&[&key]), None));
+    }
     // Fields.
     for (name, value) in [("NaN", f64::NAN), ("infinity", f64::INFINITY), ("1e300 m/s", 1e300)] {
         for (precision, open) in [("", cpu::double as crate::flow::Open), (", f32", cpu::single)] {

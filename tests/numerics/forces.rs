@@ -24,7 +24,7 @@ const ARRANGEMENTS: [&str; 3] = ["regular", "jittered", "relaxed"];
 fn around(n: usize, overrides: &[&str]) -> Case {
     let mut case = wake(n, overrides);
     let circle = Some(Circle { centre: CENTRE.to_array(), radius: RADIUS });
-    case.obstacles = vec![Obstacle { name: "ball".to_owned(), circle, polygon: None }];
+    case.obstacles = vec![Obstacle { name: "ball".to_owned(), circle, polygon: None, parts: None }];
     case
 }
 
@@ -185,7 +185,7 @@ fn the_shape_of_the_obstacle_changes_the_force() {
     let square = |half: f64| {
         let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
         let corners = corners.map(|corner| (CENTRE + DVec2::from_array(corner)).to_array()).to_vec();
-        let obstacle = Obstacle { name: "ball".to_owned(), circle: None, polygon: Some(corners) };
+        let obstacle = Obstacle { name: "ball".to_owned(), circle: None, polygon: Some(corners), parts: None };
         assert!((Shape::of(&obstacle).area() - 4.0 * half * half).abs() < 1e-12);
         Case { obstacles: vec![obstacle], ..case.clone() }
     };

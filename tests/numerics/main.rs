@@ -10,6 +10,7 @@ mod random;
 mod spoiled;
 
 mod carried;
+mod carried_around;
 mod clouds;
 mod coarse;
 mod drag;

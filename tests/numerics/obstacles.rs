@@ -16,12 +16,12 @@ const ARRANGEMENTS: [&str; 4] = ["regular", "jittered", "random", "relaxed"];
 
 fn circle(name: &str, centre: DVec2, radius: f64) -> Obstacle {
     let circle = Some(Circle { centre: centre.to_array(), radius });
-    Obstacle { name: name.to_owned(), circle, polygon: None }
+    Obstacle { name: name.to_owned(), circle, polygon: None, parts: None }
 }
 
 fn polygon(name: &str, corners: &[DVec2]) -> Obstacle {
     let corners = corners.iter().map(|corner| corner.to_array()).collect();
-    Obstacle { name: name.to_owned(), circle: None, polygon: Some(corners) }
+    Obstacle { name: name.to_owned(), circle: None, polygon: Some(corners), parts: None }
 }
 
 /// A star of three to eight corners around `centre`, either way round.
@@ -40,7 +40,21 @@ fn star(random: &mut Random, centre: DVec2, largest: f64) -> Obstacle {
     polygon("star", &corners)
 }
 
-/// Scenes of a circle and a star at random places, by arrangement.
+/// A body made of parts, as a case file has it.
+fn figure(name: &str, parts: &str) -> Obstacle {
+    toml::from_str(&format!("name = '{name}'\nparts = [{parts}]")).expect("an obstacle")
+}
+
+/// Bodies with curved sides, round and sharp corners, and corners that point inwards.
+const CUP: &str = "{ circle = { centre = [0.35, 0.5], radius = 0.25 } }, \
+                   { circle = { centre = [0.35, 0.5], radius = 0.14 }, combine = 'subtract' }, \
+                   { box = { centre = [0.55, 0.5], size = [0.5, 0.16] }, combine = 'subtract' }";
+const WING: &str = "{ ellipse = { centre = [0.8, 0.25], axes = [0.16, 0.07], turn = -40.0 } }";
+const KEY: &str = "{ box = { centre = [0.3, 0.3], size = [0.3, 0.2], corner = 0.05, turn = 15.0 } }, \
+                   { capsule = { from = [0.35, 0.3], to = [0.62, 0.6], radius = 0.05 } }, \
+                   { ellipse = { centre = [0.2, 0.42], axes = [0.1, 0.06] }, combine = 'subtract' }";
+
+/// Scenes of a circle and a star at random places, then of bodies made of parts, by arrangement.
 fn scenes() -> Vec<(String, Case, Cloud)> {
     let mut scenes = Vec::new();
     let mut random = Random::new(5);
@@ -55,7 +69,38 @@ fn scenes() -> Vec<(String, Case, Cloud)> {
             scenes.push((format!("{arrangement} {seed}"), case, cloud));
         }
     }
+    for arrangement in ARRANGEMENTS {
+        for bodies in [vec![figure("cup", CUP), figure("wing", WING)], vec![figure("key", KEY)]] {
+            let mut case = cavity_of(32, &[&format!("cloud.arrangement={arrangement}"), "method.radius=2.8"]);
+            let name = format!("{arrangement} {}", bodies[0].name);
+            case.obstacles = bodies;
+            let cloud = Cloud::build(&case).unwrap_or_else(|error| panic!("{name}: {error}"));
+            scenes.push((name, case, cloud));
+        }
+    }
     scenes
+}
+
+/// A circle is a circle, as a shape of its own and as the one part of another.
+#[test]
+fn a_part_alone_is_the_figure_that_it_is() {
+    let ball = circle("ball", DVec2::new(0.45, 0.55), 0.2);
+    let part = figure("ball", "{ circle = { centre = [0.45, 0.55], radius = 0.2 } }");
+    let corners = [[0.3, 0.3], [0.7, 0.3], [0.7, 0.6], [0.3, 0.6]].map(DVec2::from);
+    let block = figure("block", "{ box = { centre = [0.5, 0.45], size = [0.4, 0.3] } }");
+    for (one, other) in [(ball, part), (polygon("block", &corners), block)] {
+        let [one, other] = [one, other].map(|body| {
+            let mut case = cavity_of(20, &["cloud.arrangement=relaxed"]);
+            case.obstacles = vec![body];
+            Cloud::build(&case).expect("a cloud")
+        });
+        assert_eq!(one.len(), other.len());
+        let nearest = |place: &DVec2| other.position.iter().map(|p| p.distance(*place)).fold(f64::INFINITY, f64::min);
+        let off = one.position.iter().map(nearest).fold(0.0, f64::max);
+        assert!(off < 1e-9, "{off:e}");
+        let [one, other] = [&one, &other].map(|cloud| Cells::build(cloud).volume.iter().sum::<f64>());
+        assert!((one - other).abs() < 1e-13);
+    }
 }
 
 #[test]
@@ -162,6 +207,17 @@ fn what_is_too_small_or_too_near_is_refused_by_name() {
     let plate = [DVec2::new(0.3, 0.5), DVec2::new(0.7, 0.5), DVec2::new(0.7, 0.51), DVec2::new(0.3, 0.51)];
     assert!(matches!(built(vec![polygon("it", &plate)]), Err(CloudError::Thin { name, .. }) if name == "it"));
     assert_eq!(built(vec![circle("it", middle, 0.1), circle("other", middle + 0.25, 0.1)]), Ok(()));
+    let narrow =
+        |parts: &str| matches!(built(vec![figure("it", parts)]), Err(CloudError::Narrow { name, .. }) if name == "it");
+    let round = "{ circle = { centre = [0.5, 0.5], radius = 0.2 } }";
+    assert!(
+        narrow(&format!("{round}, {{ box = {{ centre = [0.7, 0.5], size = [0.3, 0.01] }}, combine = 'subtract' }}")),
+        "a slit"
+    );
+    let hole = format!("{round}, {{ circle = {{ centre = [0.5, 0.5], radius = 0.01 }}, combine = 'subtract' }}");
+    assert!(matches!(built(vec![figure("it", &hole)]), Err(CloudError::Parts { name, .. }) if name == "it"));
+    let thin = "{ capsule = { from = [0.3, 0.3], to = [0.7, 0.7], radius = 0.02 } }";
+    assert!(matches!(built(vec![figure("it", thin)]), Err(CloudError::Thin { name, .. }) if name == "it"));
 }
 
 /// Largest error of the pressure, over the largest pressure.
@@ -179,7 +235,9 @@ fn poisson(n: usize, arrangement: &str, obstacles: Vec<Obstacle>) -> f64 {
 fn the_known_pressure_is_found_at_order_two_beside_obstacles() {
     let corners = [[0.55, 0.2], [0.8, 0.3], [0.65, 0.5], [0.6, 0.35]].map(DVec2::from);
     let body = || vec![circle("ball", DVec2::new(0.3, 0.65), 0.15), polygon("body", &corners)];
-    for arrangement in ARRANGEMENTS {
+    let key = || vec![figure("key", KEY)];
+    for (arrangement, body) in ARRANGEMENTS.into_iter().flat_map(|name| [(name, &body as &dyn Fn() -> _), (name, &key)])
+    {
         let errors = [24, 48, 96].map(|n| poisson(n, arrangement, body()));
         let found = order((24, errors[0]), (96, errors[2]));
         assert!(found > 1.7 && errors[1] < 3e-3, "{arrangement}: order {found}, errors {errors:?}");

@@ -154,6 +154,9 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     let mut shear = cavity_of(ACROSS, &["cloud.arrangement=jittered", IMPLICIT[0].1[1]]);
     (shear.effects.pressure, shear.effects.advection) = (None, None);
     scenes.push(("implicit viscosity alone", Arc::new(Scene::build(&shear).expect("a scene"))));
+    for (name, more) in OPEN_COLLOCATED {
+        scenes.push((name, Arc::new(of(&[&OPEN[..], more].concat()))));
+    }
     scenes.push(("a channel that repeats", Arc::new(channel())));
     scenes.push(("obstacles in a lattice", Arc::new(with_obstacles("regular"))));
     scenes.push(("obstacles in relaxed points", Arc::new(with_obstacles("relaxed"))));
@@ -197,7 +200,7 @@ fn with_obstacles(arrangement: &str) -> Scene {
 
 fn obstacle(circle: Option<Circle>, polygon: Option<Vec<[f64; 2]>>) -> Obstacle {
     let name = if circle.is_some() { "ball" } else { "wedge" };
-    Obstacle { name: name.to_owned(), circle, polygon }
+    Obstacle { name: name.to_owned(), circle, polygon, parts: None }
 }
 
 /// A channel round a circle, which fluid flows through, its points closer around that; plain faces.
@@ -296,6 +299,18 @@ const IMPLICIT: [(&str, &[&str]); 2] = [
             "effects.pressure.solver=bicgstab",
             "time.splitting=projection",
         ],
+    ),
+];
+
+/// The same with the collocated pressure.
+const OPEN_COLLOCATED: [(&str, &[&str]); 2] = [
+    (
+        "inlet, outlet and slip, collocated, bicgstab",
+        &["effects.pressure.form=collocated", "effects.heat.diffusivity=0.02", "boundaries.left.temperature=1.0"],
+    ),
+    (
+        "inlet, outlet and slip, collocated, direct",
+        &["effects.pressure.form=collocated", "effects.pressure.solver=direct", "time.splitting=projection"],
     ),
 ];
 

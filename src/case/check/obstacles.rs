@@ -3,7 +3,9 @@
 use glam::DVec2;
 
 use super::super::fault::Fault;
-use super::super::{Arrangement, Axes, Case, Obstacle, Operators, PressureForm, Problem, Refine, Remap, SIDES};
+use super::super::{
+    Arrangement, Axes, Block, Case, Combine, Obstacle, Operators, Part, PressureForm, Problem, Refine, Remap, SIDES,
+};
 
 pub(super) fn check(case: &Case) -> Result<(), Fault> {
     for (number, obstacle) in case.obstacles.iter().enumerate() {
@@ -37,6 +39,19 @@ fn check_shape(case: &Case, obstacle: &Obstacle, key: &dyn Fn(&str) -> String) -
         let reason = format!("must lie inside the domain, {} x {} m", case.domain.width, case.domain.height);
         Err(Fault::reason(&key(name), reason))
     };
+    if let Some(parts) = &obstacle.parts {
+        if obstacle.circle.is_some() || obstacle.polygon.is_some() {
+            let reason =
+                "an obstacle has one shape, and there is a circle or a polygon beside its parts; leave one out";
+            return Err(Fault::reason(&key("parts"), reason));
+        }
+        return check_parts(
+            parts,
+            &inside,
+            &key("parts"),
+            &format!("{} x {} m", case.domain.width, case.domain.height),
+        );
+    }
     match (&obstacle.circle, &obstacle.polygon) {
         (Some(_), Some(_)) => {
             Err(Fault::reason(&key("polygon"), "an obstacle has one shape, and there is a circle; leave one out"))
@@ -67,6 +82,46 @@ fn check_shape(case: &Case, obstacle: &Obstacle, key: &dyn Fn(&str) -> String) -
             }
         }
     }
+}
+
+/// Figures as they can be, and those that are added inside the domain; what is taken away may lie anywhere.
+fn check_parts(parts: &[Part], inside: &dyn Fn(DVec2) -> bool, table: &str, domain: &str) -> Result<(), Fault> {
+    if parts.is_empty() {
+        return Err(Fault::range(table));
+    }
+    for (number, part) in parts.iter().enumerate() {
+        let key = |name: &str| format!("{table}.[{number}].{name}");
+        let given = [part.circle.is_some(), part.ellipse.is_some(), part.block.is_some(), part.capsule.is_some()];
+        if given.iter().filter(|given| **given).count() != 1 {
+            let reason = "a part is one figure, of the keys circle, ellipse, box and capsule";
+            return Err(Fault::reason(&format!("{table}.[{number}]"), reason));
+        }
+        let positive = |lengths: &[f64]| lengths.iter().all(|&length| length > 0.0);
+        let wrong = [
+            ("circle.radius", part.circle.as_ref().is_some_and(|circle| !positive(&[circle.radius]))),
+            ("ellipse.axes", part.ellipse.as_ref().is_some_and(|ellipse| !positive(&ellipse.axes))),
+            ("box.size", part.block.as_ref().is_some_and(|block| !positive(&block.size))),
+            ("box.corner", part.block.as_ref().is_some_and(|block| !rounds(block))),
+            ("capsule.to", part.capsule.as_ref().is_some_and(|capsule| capsule.from == capsule.to)),
+            ("capsule.radius", part.capsule.as_ref().is_some_and(|capsule| !positive(&[capsule.radius]))),
+        ];
+        if let Some((name, _)) = wrong.iter().find(|(_, wrong)| *wrong) {
+            return Err(Fault::range(&key(name)));
+        }
+        if number == 0 && part.combine != Combine::Add {
+            return Err(Fault::reason(&key("combine"), "there is nothing before the first part; it must be \"add\""));
+        }
+        let (low, high) = part.bounds();
+        if part.combine == Combine::Add && !(inside(low) && inside(high)) {
+            return Err(Fault::reason(&format!("{table}.[{number}]"), format!("must lie inside the domain, {domain}")));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the corners of a box have room.
+fn rounds(block: &Block) -> bool {
+    block.corner >= 0.0 && 2.0 * block.corner <= block.size[0].min(block.size[1])
 }
 
 /// The first edge of a polygon that meets another, or has no length.

@@ -113,6 +113,16 @@ fn channel_scene() -> Scene {
     scene_of(CAVITY, &changes)
 }
 
+/// The same with the collocated pressure.
+fn collocated_channel_scene() -> Scene {
+    let changes = [
+        "effects.pressure.form=\"collocated\"",
+        "boundaries.left={ kind = \"inlet\", velocity = [1.0, 0.0] }",
+        "boundaries.right={ kind = \"outlet\" }",
+    ];
+    scene_of(CAVITY, &changes)
+}
+
 /// Fluid comes and goes through the sides.
 fn open_scene() -> Scene {
     scene_of(&(CAVITY.replace("top.velocity = [1.0, 0.0]\n", "") + WAKE), &[FIT])

@@ -6,8 +6,8 @@ use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::{
-    CHANGES, Precision, channel_scene, forceless_scene, graded_scene, heated_scene, moving_scenes, open_scene,
-    periodic_scene, scene, still_scene,
+    CHANGES, Precision, channel_scene, collocated_channel_scene, forceless_scene, graded_scene, heated_scene,
+    moving_scenes, open_scene, periodic_scene, scene, still_scene,
 };
 use crate::gpu::bindings::arrays_of;
 use crate::gpu::launch::assemble;
@@ -23,7 +23,8 @@ const NOT_IN_F64: [&str; 12] =
     ["exp", "exp2", "log", "log2", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow"];
 
 fn scenes() -> Vec<Scene> {
-    let (flows, lies) = ([heated_scene(), channel_scene()], [periodic_scene(), graded_scene()]);
+    let (flows, lies) =
+        ([heated_scene(), channel_scene(), collocated_channel_scene()], [periodic_scene(), graded_scene()]);
     let others = [still_scene(), forceless_scene(), open_scene()].into_iter().chain(flows).chain(lies);
     CHANGES.iter().map(|changes| scene(changes)).chain(others).chain(moving_scenes()).collect()
 }
