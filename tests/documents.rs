@@ -102,6 +102,24 @@ fn the_readme_lists_every_case_and_every_study() {
     }
 }
 
+/// The gallery is made by one command; what it shows is small enough to come with the source.
+#[test]
+fn the_readme_shows_a_small_picture_of_every_case() {
+    let readme = read("README.md");
+    let mut all = 0;
+    for case in toml_files("cases") {
+        let picture = format!("docs/images/gallery/{}", case.replace(".toml", ".png"));
+        assert!(
+            readme.contains(&format!("]({picture})")),
+            "{case} has no picture: cargo run --release --example gallery"
+        );
+        let bytes = fs::metadata(Path::new(ROOT).join(&picture)).expect("a picture").len();
+        assert!(bytes < 60_000, "{picture}: {bytes} bytes");
+        all += bytes;
+    }
+    assert!(all < 1_500_000, "{all} bytes");
+}
+
 /// Each command is run as it stands but for a coarse cloud and a short time, which miss what a case expects (exit code
 /// 1); one that the program does not take ends with 2.
 #[test]
