@@ -39,6 +39,9 @@ struct Opened {
     held: Option<u64>,
 }
 
+/// Makes the engine of a scene.
+type Open<'a> = dyn Fn(&Arc<Scene>) -> Result<Opened, Box<dyn Error>> + 'a;
+
 fn main() -> ExitCode {
     // Cargo adds --bench.
     let most = env::args().skip(1).find_map(|argument| argument.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
@@ -109,7 +112,7 @@ fn row(
     label: &str,
     real: usize,
     scene: &Arc<Scene>,
-    open: &dyn Fn(&Arc<Scene>) -> Result<Opened, Box<dyn Error>>,
+    open: &Open,
     report: Option<f64>,
 ) -> Result<(), Box<dyn Error>> {
     let points = scene.sizes.points as f64;
