@@ -24,8 +24,10 @@ mod scenes;
 mod soak;
 mod table;
 mod table_of_input;
+mod table_of_motion;
 mod table_of_points;
 mod table_of_pressure;
+mod table_of_shapes;
 mod table_of_time;
 
 /// Of the project.
