@@ -181,6 +181,8 @@ struct Run<'a> {
     most_energy: f64,
     warnings: Vec<String>,
     moving: moving::Watch,
+    /// Memory for the state of the next row.
+    spare: State,
     /// Forces, differences and fluxes for the diagnostics.
     probes: Vec<Probe>,
 }
@@ -189,7 +191,8 @@ impl<'a> Run<'a> {
     pub(super) fn new(scene: &'a Scene, engine: &'a mut dyn Engine, observer: &'a mut dyn Observer) -> Self {
         let (limit, warnings, moving) = (f64::INFINITY, Vec::new(), moving::Watch::new(scene));
         let (wall_speed, most_energy, probes) = (0.0, f64::MAX, Vec::new());
-        Self { scene, engine, observer, limit, wall_speed, most_energy, warnings, moving, probes }
+        let spare = State::default();
+        Self { scene, engine, observer, limit, wall_speed, most_energy, warnings, moving, spare, probes }
     }
 
     fn run(mut self, resumed: Option<State>) -> Result<Outcome, SimulationError> {
@@ -242,7 +245,7 @@ impl<'a> Run<'a> {
             let interrupted = match row {
                 Ok(Row::Full(row, state)) => {
                     self.observer.report(&row);
-                    good = *state;
+                    self.spare = std::mem::replace(&mut good, state);
                     self.tell_moved();
                     self.observer.keep(&good);
                     self.observer.stop_requested()

@@ -19,6 +19,7 @@ mod flow;
 mod folders;
 mod guards;
 mod kills;
+mod price;
 mod resuming;
 mod scenes;
 mod soak;
