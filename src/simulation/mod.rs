@@ -146,6 +146,8 @@ fn not_finite(snapshot: &Snapshot) -> Option<(&str, usize)> {
 const MOVING_DIFFUSION: f64 = 0.1;
 /// Share of the stability limit of viscosity and diffusion that a step uses.
 const STABLE_SHARE: f64 = 0.8;
+/// Divergence left by a pressure solve, over that of the walls' speed in a spacing, above which it shows in the flow.
+const DOUBTFUL: f64 = 0.01;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -382,7 +384,23 @@ impl<'a> Run<'a> {
             let name = self.stable_by();
             self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
+        self.doubt_tolerance(dt);
         Ok((dt, limit))
+    }
+
+    /// The tolerance is of the volume change in a step. Where steps are short beside the time in which the walls pass a spacing,
+    /// it allows a divergence that the flow notices.
+    fn doubt_tolerance(&mut self, dt: f64) {
+        let tolerance = self.scene.constants.tolerance;
+        let passed = dt * self.wall_speed / self.scene.constants.spacing;
+        let doubted = self.warnings.iter().any(|warning| warning.starts_with("effects.pressure.tolerance"));
+        if self.scene.plan.form.is_some() && passed > 0.0 && tolerance > DOUBTFUL * passed && !doubted {
+            let (share, better) = (100.0 * tolerance / passed, 0.1 * DOUBTFUL * passed);
+            self.warnings.push(format!(
+                "effects.pressure.tolerance = {tolerance:e} allows a divergence of {share:.0}% of the walls' speed over a spacing \
+                 in steps of {dt:.1e} s; try {better:.0e}"
+            ));
+        }
     }
 
     /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
