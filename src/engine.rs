@@ -100,6 +100,16 @@ pub struct Measurement {
     pub change: f64,
 }
 
+/// Entries that are looked at together.
+const STRIDE: usize = 64;
+
+/// The first entry that is `lost`. Looks at many at once: nearly always none is.
+pub fn first_lost<V: Copy>(values: &[V], lost: impl Fn(V) -> bool) -> Option<usize> {
+    let some = |values: &[V]| values.iter().fold(false, |some, &value| some | lost(value));
+    let begin = STRIDE * values.chunks(STRIDE).position(some)?;
+    values[begin..].iter().position(|&value| lost(value)).map(|entry| begin + entry)
+}
+
 /// Why an engine cannot go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EngineError {
@@ -146,6 +156,12 @@ pub trait Engine {
 
     /// A whole array, padding included.
     fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError>;
+
+    /// The same into memory at hand.
+    fn read_into(&mut self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
+        *data = self.read(buffer)?;
+        Ok(())
+    }
 
     /// Runs one operation on what is stored.
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError>;

@@ -7,7 +7,7 @@ mod sides;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Weight};
+use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Wall, Weight};
 use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::{Boundary, Cells};
 use crate::cloud::{Cloud, CloudError, OpenPoint, Side, first_apart, grid, open_points, shortest};
@@ -136,7 +136,7 @@ impl Scene {
         let room = (cloud.size.x * cloud.size.y / (4 * cloud.len() + 16) as f64).sqrt();
         let grid = Grid::new(cloud.size, cloud.period, cell(&cloud, case.method.radius()).max(room));
         let capacity = if plan.moves() {
-            2 * most
+            (2 * most).max(12)
         } else if plan.drift.contains(&Operation::MovePoints) {
             most + most / 3 + 2
         } else {
@@ -262,10 +262,16 @@ impl Scene {
     }
 
     /// The part of gravity that the pressure of a fluid at rest takes off, m/s^2: what the relaxed mean of the pressure's kicks
-    /// begins with. Along an axis that has no walls nothing does.
+    /// begins with. Along an axis that has no walls, or ends at outlets on both sides, nothing does.
     pub fn balanced_gravity(&self) -> DVec2 {
-        let closed = self.constants.period.map(|length| f64::from(u8::from(length == 0.0)));
-        closed * self.constants.gravity
+        let sides = &self.case.boundaries;
+        let held = |length: f64, ends: [&Wall; 2]| {
+            let open = ends.iter().all(|side| side.kind == SideKind::Outlet);
+            f64::from(u8::from(length == 0.0 && !open))
+        };
+        let period = self.constants.period;
+        let [x, y] = [held(period.x, [&sides.left, &sides.right]), held(period.y, [&sides.bottom, &sides.top])];
+        DVec2::new(x, y) * self.constants.gravity
     }
 
     /// Part of the mean pressure's kick that the source of the pressure sees after implicit viscosity, `1 / (1 + 8 h nu / l0^2)`;

@@ -84,7 +84,8 @@ impl Line {
         };
         let within = 1e-9 * length;
         let [low, high] = [off(from <= within), off(to >= length - within)];
-        let gaps = ((to - from) / spacing - low - high).round().max(0.0);
+        // Half a gap too many, as between a wall and the surface, is one more, whatever rounding made of it.
+        let gaps = ((to - from) / spacing - low - high + 1e-6).round().max(0.0);
         let step = (to - from) / (gaps + low + high);
         Self { first: from + low * step, step, count: gaps as usize + 1 }
     }

@@ -80,6 +80,22 @@ impl<T: Real> Fields<T> {
         }
     }
 
+    /// As [`Fields::read`], into memory at hand: that of a long array costs more than what is in it.
+    pub fn read_into(&self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
+        match (buffer.element(), &mut *data) {
+            (Element::Real, Data::Real(values)) => {
+                values.clear();
+                values.extend(self.real(buffer)?.iter().map(|value| value.to_f64()));
+            }
+            (Element::Index, Data::Index(values)) => {
+                values.clear();
+                values.extend_from_slice(self.index(buffer)?);
+            }
+            _ => *data = self.read(buffer)?,
+        }
+        Ok(())
+    }
+
     /// What the host is to see of an array.
     pub fn read(&self, buffer: Buffer) -> Result<Data, EngineError> {
         match buffer.element() {

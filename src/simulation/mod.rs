@@ -151,6 +151,8 @@ const MOVING_DIFFUSION: f64 = 0.1;
 const STABLE_SHARE: f64 = 0.8;
 /// Share of the decay of the slowest shear that a step with implicit viscosity takes.
 const DECAY_SHARE: f64 = 0.1;
+/// Divergence left by a pressure solve, over that of the walls' speed in a spacing, above which it shows in the flow.
+const DOUBTFUL: f64 = 0.01;
 /// Applications of the viscous operator in the search for its largest eigenvalue.
 const POWER_ITERATIONS: usize = 24;
 
@@ -186,6 +188,8 @@ struct Run<'a> {
     most_energy: f64,
     warnings: Vec<String>,
     moving: moving::Watch,
+    /// Memory for the state of the next row.
+    spare: State,
     /// Forces, differences and fluxes for the diagnostics.
     probes: Vec<Probe>,
 }
@@ -194,7 +198,8 @@ impl<'a> Run<'a> {
     pub(super) fn new(scene: &'a Scene, engine: &'a mut dyn Engine, observer: &'a mut dyn Observer) -> Self {
         let (limit, warnings, moving) = (f64::INFINITY, Vec::new(), moving::Watch::new(scene));
         let (wall_speed, most_energy, probes) = (0.0, f64::MAX, Vec::new());
-        Self { scene, engine, observer, limit, wall_speed, most_energy, warnings, moving, probes }
+        let spare = State::default();
+        Self { scene, engine, observer, limit, wall_speed, most_energy, warnings, moving, spare, probes }
     }
 
     fn run(mut self, resumed: Option<State>) -> Result<Outcome, SimulationError> {
@@ -247,7 +252,7 @@ impl<'a> Run<'a> {
             let interrupted = match row {
                 Ok(Row::Full(row, state)) => {
                     self.observer.report(&row);
-                    good = *state;
+                    self.spare = std::mem::replace(&mut good, state);
                     self.tell_moved();
                     self.observer.keep(&good);
                     self.observer.stop_requested()
@@ -389,7 +394,23 @@ impl<'a> Run<'a> {
             let name = self.stable_by();
             self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
+        self.doubt_tolerance(dt);
         Ok((dt, limit))
+    }
+
+    /// The tolerance is of the volume change in a step. Where steps are short beside the time in which the walls pass a spacing,
+    /// it allows a divergence that the flow notices.
+    fn doubt_tolerance(&mut self, dt: f64) {
+        let tolerance = self.scene.constants.tolerance;
+        let passed = dt * self.wall_speed / self.scene.constants.spacing;
+        let doubted = self.warnings.iter().any(|warning| warning.starts_with("effects.pressure.tolerance"));
+        if self.scene.plan.form.is_some() && passed > 0.0 && tolerance > DOUBTFUL * passed && !doubted {
+            let (share, better) = (100.0 * tolerance / passed, 0.1 * DOUBTFUL * passed);
+            self.warnings.push(format!(
+                "effects.pressure.tolerance = {tolerance:e} allows a divergence of {share:.0}% of the walls' speed over a spacing \
+                 in steps of {dt:.1e} s; try {better:.0e}"
+            ));
+        }
     }
 
     /// The step in which gravity moves a point at rest by `time.courant` spacings, s.

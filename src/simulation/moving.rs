@@ -47,7 +47,8 @@ impl Watch {
     /// What is wrong, if something is; `start` is the energy at the start.
     fn judge(&self, row: &motion::Row, start: f64) -> Option<String> {
         let energy = self.energy(row);
-        if row.nearest[0] < CLUMPED {
+        // Where every point is alone there are no two.
+        if row.nearest[0] < CLUMPED && row.nearest[2] > 0.0 {
             return Some(format!("two points are {:.1e} spacings apart", row.nearest[0]));
         }
         (energy > (1.0 + ENERGY_GROWTH) * start)

@@ -13,7 +13,7 @@ const STRETCH: Duration = Duration::from_millis(250);
 /// How the steps of one row ended.
 pub(super) enum Row {
     /// All of them done: the figures, and the state to go on from.
-    Full(Diagnostics, Box<State>),
+    Full(Diagnostics, State),
     Interrupted(Diagnostics),
     Trouble(Trouble),
 }
@@ -115,9 +115,10 @@ impl Run<'_> {
         if let Some(reason) = self.look_at_points(progress)? {
             return Ok(Row::Trouble(Trouble::Diverged(reason)));
         }
-        if !self.probes.is_empty() {
-            let snapshot = self.snapshot(progress.time)?;
-            row.probes = self.probes.iter().map(|probe| probe.value(&snapshot)).collect();
+        let graded = self.scene.cloud.local.is_some();
+        let snapshot = (graded || !self.probes.is_empty()).then(|| self.snapshot(progress.time)).transpose()?;
+        if let Some(snapshot) = &snapshot {
+            row.probes = self.probes.iter().map(|probe| probe.value(snapshot)).collect();
         }
         if interrupted {
             return Ok(Row::Interrupted(row));
@@ -126,15 +127,15 @@ impl Run<'_> {
         let steady = self.scene.case.time.steady.is_some_and(|least| row.change < least);
         progress.steady_rows = if steady { progress.steady_rows + 1 } else { 0 };
         progress.warnings.clone_from(&self.warnings);
-        if self.scene.cloud.local.is_some() {
+        if let Some(snapshot) = snapshot.filter(|_| graded) {
             // Where the spacing varies the step goes by the motion in spacings.
-            let snapshot = self.snapshot(progress.time)?;
             progress.speed = self.wall_speed.max(self.fastest(&snapshot.velocity, 0));
         }
-        let state = State::read(self.scene, self.engine, progress)?;
+        let mut state = std::mem::take(&mut self.spare);
+        state.renew(self.scene, self.engine, progress)?;
         Ok(match state.non_finite(self.scene) {
             Some(field) => Row::Trouble(self.lost(field)),
-            None => Row::Full(row, Box::new(state)),
+            None => Row::Full(row, state),
         })
     }
 

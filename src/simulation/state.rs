@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::{Data, Engine, EngineError, NonFinite};
+use crate::engine::{Data, Engine, EngineError, NonFinite, first_lost};
 use crate::scene::Scene;
 use crate::step::Buffer;
 
@@ -79,6 +79,16 @@ impl State {
         Ok(Self { progress: progress.clone(), arrays })
     }
 
+    /// Reads them anew, into the memory of a state of the same scene.
+    pub fn renew(&mut self, scene: &Scene, engine: &mut dyn Engine, progress: &Progress) -> Result<(), EngineError> {
+        if self.arrays.is_empty() {
+            *self = Self::read(scene, engine, progress)?;
+            return Ok(());
+        }
+        self.progress.clone_from(progress);
+        self.arrays.iter_mut().try_for_each(|(buffer, data)| engine.read_into(*buffer, data))
+    }
+
     /// Writes the arrays to an engine, whose setup is done.
     pub fn write(&self, engine: &mut dyn Engine) -> Result<(), EngineError> {
         self.arrays.iter().try_for_each(|(buffer, data)| engine.write(*buffer, data))
@@ -92,7 +102,7 @@ impl State {
     pub fn non_finite(&self, scene: &Scene) -> Option<NonFinite> {
         self.arrays.iter().find_map(|(buffer, data)| {
             let Data::Real(values) = data else { return None };
-            let entry = values.iter().position(|value| !value.is_finite())?;
+            let entry = first_lost(values, |value| !value.is_finite())?;
             let width = (values.len() / scene.padded()).max(1);
             Some(NonFinite { buffer: *buffer, point: (entry / width).min(scene.sizes.points - 1) })
         })

@@ -235,6 +235,20 @@ fn a_run_that_fails_ends_with_1_and_one_line_and_leaves_what_it_has() {
 }
 
 #[test]
+fn a_tolerance_that_is_large_beside_short_steps_is_doubted() {
+    let warnings = |more: &[&str]| {
+        let case = cavity_of(12, &[&["time.end=1e-5"], more].concat());
+        flow_of(&case).expect("a flow").outcome.warnings
+    };
+    let creeping = "effects.viscosity.kinematic=1000.0";
+    let said = warnings(&[creeping]);
+    assert!(matches!(&said[..], [one] if one.starts_with("effects.pressure.tolerance = 1e-6 allows")), "{said:?}");
+    let tried = said[0].rsplit_once("; try ").expect("a remedy").1;
+    assert_eq!(warnings(&[creeping, &format!("effects.pressure.tolerance={tried}")]), [""; 0]);
+    assert_eq!(warnings(&["time.end=0.1"]), [""; 0]);
+}
+
+#[test]
 fn problems_without_time_have_no_guard() {
     let text = "title = \"P\"\ndomain = { width = 1.0, height = 1.0 }\nfluid = { density = 1.0 }\n\
                 cloud = { arrangement = \"regular\", spacing = 0.1 }\nderivatives = { field = \"waves\" }\nguard = { retries = 1 }\n";

@@ -19,13 +19,16 @@ mod flow;
 mod folders;
 mod guards;
 mod kills;
+mod price;
 mod resuming;
 mod scenes;
 mod soak;
 mod table;
 mod table_of_input;
+mod table_of_motion;
 mod table_of_points;
 mod table_of_pressure;
+mod table_of_shapes;
 mod table_of_time;
 
 /// Of the project.

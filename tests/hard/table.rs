@@ -8,7 +8,9 @@ use std::path::Path;
 use stillpoint::simulation::{Stop, Trouble};
 
 use crate::flow::Flow;
-use crate::{ROOT, table_of_input, table_of_points, table_of_pressure, table_of_time};
+use crate::{
+    ROOT, table_of_input, table_of_motion, table_of_points, table_of_pressure, table_of_shapes, table_of_time,
+};
 
 const INTRODUCTION: &str = "\
 # Hard cases
@@ -48,6 +50,11 @@ pub struct Row {
 impl Row {
     pub fn new(case: impl Into<String>, promise: impl Into<String>, measured: impl Into<String>, pass: bool) -> Self {
         Self { case: case.into(), promise: promise.into(), measured: measured.into(), pass }
+    }
+
+    /// Broken where `also` is false too.
+    pub fn and(self, also: bool) -> Self {
+        Self { pass: self.pass && also, ..self }
     }
 
     /// A flow, or why there was none, against what is promised. `expected` is the kinetic energy of the right answer, m^4/s^2.
@@ -145,6 +152,8 @@ fn all() -> Vec<(&'static str, Vec<Row>)> {
         ("Points", table_of_points::rows()),
         ("Time and viscosity", table_of_time::rows()),
         ("Pressure", table_of_pressure::rows()),
+        ("Corners, and pressure given all around", table_of_shapes::rows()),
+        ("Points that move", table_of_motion::rows()),
         ("Input", table_of_input::rows()),
     ]
 }

@@ -99,6 +99,21 @@ fn a_run_in_two_gives_the_same_bits_as_one_in_one_go() {
 }
 
 #[test]
+fn points_that_move_go_on_to_the_same_bits() {
+    let Some(candidate) = candidate() else { return };
+    for (name, scene) in scenes::all().into_iter().filter(|(_, scene)| scene.plan.moves()) {
+        let open = || gpu(&candidate, &scene, Precision::Single);
+        let mut keeper = Keeper(1, None);
+        let whole = simulate(&scene, &mut open(), &mut keeper).expect("a run");
+        let state = keeper.1.expect("a state after a row");
+        assert!(state.progress.step > 0 && whole.steps > state.progress.step, "{name}");
+        let rest = resume(&scene, &mut open(), &mut (), state).expect("the rest of it");
+        assert!(numbers(&rest) == numbers(&whole) && rest.snapshot == whole.snapshot, "{name}");
+        assert_eq!((rest.steps, rest.state), (whole.steps, whole.state), "{name}");
+    }
+}
+
+#[test]
 fn a_whole_run_in_f64_agrees_with_the_cpu() {
     let Some(candidate) = candidate().filter(|candidate| candidate.double_precision) else { return };
     let collocated = ["effects.pressure.form=collocated", "effects.advection.remap=forward", "time.courant=0.5"];

@@ -19,7 +19,9 @@ use crate::cpu::operations::space::Domain;
 use crate::cpu::operations::{conservative, fits, measure};
 use crate::cpu::real::Real;
 use crate::direct::DirectSolver;
-use crate::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, SolveInfo, Spent};
+use crate::engine::{
+    Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, NonFinite, SolveInfo, Spent, first_lost,
+};
 use crate::scene::Scene;
 use crate::step::coarse::{Level, levels};
 use crate::step::{Buffer, Operation, Points};
@@ -93,7 +95,7 @@ impl<T: Real> CpuEngine<T> {
         for buffer in [Buffer::Projected, Buffer::Pressure, Buffer::Source].into_iter().chain(carried) {
             let Ok(values) = self.fields.real(buffer) else { continue };
             let width = values.len() / self.scene.padded();
-            if let Some(entry) = values[..points * width].iter().position(|value| !value.is_finite()) {
+            if let Some(entry) = first_lost(&values[..points * width], |value| !value.is_finite()) {
                 return Ok(Some(NonFinite { buffer, point: entry / width }));
             }
         }
@@ -116,6 +118,10 @@ impl<T: Real> Engine for CpuEngine<T> {
 
     fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError> {
         self.fields.read(buffer)
+    }
+
+    fn read_into(&mut self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
+        self.fields.read_into(buffer, data)
     }
 
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {

@@ -1,5 +1,7 @@
 //! Sums over the points for a row of diagnostics.
 
+use std::ops::RangeInclusive;
+
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::real::Real;
 use crate::engine::Measurement;
@@ -14,18 +16,27 @@ pub fn speeds<T: Real>(velocity: &[T], volume: &[T], reported: &mut [T], points:
         };
         [range.filter(|&i| i < points).map(term).sum()]
     });
-    let norm = |x: T, y: T| x.to_f64().hypot(y.to_f64());
-    let mut most = [0.0_f64; 2];
-    for i in 0..points {
-        let (u, v) = (velocity[2 * i], velocity[2 * i + 1]);
-        most[0] = most[0].max(norm(u, v));
-        most[1] = most[1].max(norm(u - reported[2 * i], v - reported[2 * i + 1]));
-    }
+    let now = velocity[..2 * points].as_chunks().0.iter();
+    let changes = now.clone().zip(reported.as_chunks().0).map(|(&[u, v], &[a, b])| [u - a, v - b]);
+    let (max_speed, change) = (longest(now.copied()), longest(changes));
     blocks::for_each(reported, 2, &|block, out| {
         let first = 2 * block * BLOCK;
         out.copy_from_slice(&velocity[first..first + out.len()]);
     });
-    Measurement { kinetic_energy, max_speed: most[0], divergence: 0.0, change: most[1] / elapsed }
+    Measurement { kinetic_energy, max_speed, divergence: 0.0, change: change / elapsed }
+}
+
+/// Squares that are compared as they are: neither nothing nor beyond all numbers.
+const SQUARES: RangeInclusive<f64> = 1e-280..=1e280;
+
+/// Length of the longest of some vectors.
+fn longest<T: Real>(vectors: impl Iterator<Item = [T; 2]> + Clone) -> f64 {
+    let vectors = vectors.map(|vector| vector.map(T::to_f64));
+    let square = vectors.clone().map(|[u, v]| u * u + v * v).fold(0.0, f64::max);
+    match SQUARES.contains(&square) {
+        true => square.sqrt(),
+        false => vectors.map(|[u, v]| u.hypot(v)).fold(0.0, f64::max),
+    }
 }
 
 /// Root mean square over the points of `flux / volume`.
