@@ -11,7 +11,7 @@ const JITTERED: &str = "cloud.arrangement=jittered";
 const RELAXED: &str = "cloud.arrangement=relaxed";
 
 fn beside(case: Case, corners: &[[f64; 2]]) -> Case {
-    let obstacle = Obstacle { name: "body".to_owned(), circle: None, polygon: Some(corners.to_vec()) };
+    let obstacle = Obstacle { name: "body".to_owned(), circle: None, polygon: Some(corners.to_vec()), parts: None };
     Case { obstacles: vec![obstacle], ..case }
 }
 

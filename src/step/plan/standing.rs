@@ -70,7 +70,8 @@ impl Plan {
 impl<'a> Flow<'a> {
     fn of(case: &'a Case) -> Self {
         let (effects, implicit) = (&case.effects, case.implicit_viscosity());
-        let weight = [(effects.gravity.is_some(), Operation::Gravity), (effects.buoyancy.is_some(), Operation::Buoyancy)];
+        let weight =
+            [(effects.gravity.is_some(), Operation::Gravity), (effects.buoyancy.is_some(), Operation::Buoyancy)];
         let mut flow = Self {
             case,
             implicit,
