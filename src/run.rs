@@ -233,7 +233,9 @@ fn trouble(outcome: &Outcome) -> Option<String> {
         Trouble::Engine(EngineError::Device(_)) => "go on with it by `stillpoint resume`, or run it with --engine cpu",
         Trouble::Engine(_) => "try another effects.pressure.solver, or more regular points",
         Trouble::Energy { .. } => "try a smaller time.courant, a smaller cloud.spacing, or a larger guard.energy",
-        Trouble::Diverged(_) => "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step",
+        Trouble::Diverged(_) | Trouble::Grown { .. } | Trouble::Leapt { .. } => {
+            "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step"
+        }
         Trouble::NonFinite { .. } | Trouble::Figure { .. } | Trouble::Refused(_) => {
             "try a smaller time.courant or a smaller cloud.spacing"
         }

@@ -61,6 +61,10 @@ pub enum Trouble {
     Figure { name: &'static str, place: DVec2 },
     /// Points that move: the motion is no longer one of the fluid.
     Diverged(String),
+    /// Points that move: more energy than there was at the start, so many times as much.
+    Grown { times: f64 },
+    /// Points that move: so much more since the last row, as a part of that at the start.
+    Leapt { part: f64 },
     /// The engine could not go on.
     Engine(EngineError),
     /// No step could be chosen.
@@ -72,6 +76,7 @@ impl Trouble {
     pub(super) fn may_be_mended(&self) -> bool {
         match self {
             Trouble::NonFinite { .. } | Trouble::Energy { .. } | Trouble::Figure { .. } => true,
+            Trouble::Grown { .. } | Trouble::Leapt { .. } => true,
             Trouble::Engine(error) => {
                 matches!(
                     error,
@@ -99,6 +104,8 @@ impl Display for Trouble {
                 write!(out, "the {name} was no finite number, the fluid fastest at ({}, {}) m", place.x, place.y)
             }
             Trouble::Engine(error) => write!(out, "{error}"),
+            Trouble::Grown { times } => write!(out, "the energy has grown to {times:.2} times that at the start"),
+            Trouble::Leapt { part } => write!(out, "the energy rose by {part:.3} of that at the start"),
             Trouble::Diverged(reason) | Trouble::Refused(reason) => write!(out, "{reason}"),
         }
     }
@@ -154,6 +161,7 @@ impl Run<'_> {
         good.write(self.engine)?;
         self.begin_steps(good.progress.dt)?;
         good.progress.halvings += 1;
+        good.progress.calm_rows = 0;
         self.warnings.push(format!(
             "in or shortly before step {step} {trouble}; went back to step {} and on with half the step",
             good.progress.step

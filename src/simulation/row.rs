@@ -112,8 +112,8 @@ impl Run<'_> {
         if let Some(trouble) = self.watch(&row)? {
             return Ok(Row::Trouble(trouble));
         }
-        if let Some(reason) = self.look_at_points(progress)? {
-            return Ok(Row::Trouble(Trouble::Diverged(reason)));
+        if let Some(trouble) = self.look_at_points(progress)? {
+            return Ok(Row::Trouble(trouble));
         }
         let graded = self.scene.cloud.local.is_some();
         let snapshot = (graded || !self.probes.is_empty()).then(|| self.snapshot(progress.time)).transpose()?;
@@ -125,6 +125,9 @@ impl Run<'_> {
         }
         progress.speed = self.wall_speed.max(row.max_speed);
         let steady = self.scene.case.time.steady.is_some_and(|least| row.change < least);
+        if self.scene.plan.moves() {
+            progress.calm();
+        }
         progress.steady_rows = if steady { progress.steady_rows + 1 } else { 0 };
         progress.warnings.clone_from(&self.warnings);
         if let Some(snapshot) = snapshot.filter(|_| graded) {

@@ -24,6 +24,9 @@ pub struct Progress {
     pub steady_rows: u32,
     /// Times that the run went back and on with half the step.
     pub halvings: u32,
+    /// Of points that move: rows since it did.
+    #[serde(default)]
+    pub calm_rows: u32,
     /// Solves that were handed to the direct solver.
     pub fallbacks: u64,
     /// Pressure iterations of all steps.
@@ -42,11 +45,24 @@ pub struct Motion {
     pub area: f64,
     /// Energy at the start above that of all fluid on the floor, m^4/s^2.
     pub energy: f64,
+    /// The same at the last row.
+    pub last: f64,
     /// Frames that have been kept.
     pub frames: u32,
 }
 
+/// Rows after which points that move are given back a step twice as long: what went wrong was a splash, and is over.
+const CALM: u32 = 20;
+
 impl Progress {
+    /// Counts a row in which nothing went wrong.
+    pub(super) fn calm(&mut self) {
+        self.calm_rows = if self.halvings > 0 { self.calm_rows + 1 } else { 0 };
+        if self.calm_rows == CALM {
+            (self.halvings, self.calm_rows) = (self.halvings - 1, 0);
+        }
+    }
+
     /// What no run writes is refused.
     pub fn check(&self) -> Result<(), &'static str> {
         let positive = |value: f64| value.is_finite() && value > 0.0;
@@ -55,7 +71,9 @@ impl Progress {
             _ if !positive(self.dt) => Err("its time step is none"),
             _ if !(self.speed.is_finite() && self.speed >= 0.0) => Err("its speed is none"),
             _ if !self.viscous.is_none_or(positive) => Err("its viscous limit is none"),
-            Self { motion: Some(Motion { area, energy, .. }), .. } if !(positive(*area) && energy.is_finite()) => {
+            Self { motion: Some(Motion { area, energy, last, .. }), .. }
+                if !(positive(*area) && energy.is_finite() && last.is_finite()) =>
+            {
                 Err("its first area or energy is none")
             }
             _ => Ok(()),

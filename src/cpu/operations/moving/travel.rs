@@ -1,8 +1,8 @@
 //! Points on their way: with the velocity, and by what the pressure and the shift add to it.
 //!
 //! Continuous: `dr/dt = u`. Discrete: `r* = r + dt u*`, then `r' = r* + displacement`. Units: m.
-//! Between mirrors a point that would come nearer to a wall than [`CLEARANCE`] spacings stays there and loses its velocity
-//! towards the wall. Where walls are made of points, one that has passed them is lost: it stays where it is, at rest.
+//! Between mirrors a point that would come nearer to a wall than [`CLEARANCE`] spacings is put back as far as it came too near, so that
+//! no two meet in a corner, and loses its velocity towards the wall. Where walls are made of points, one that has passed them is lost: it stays where it is, at rest.
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::real::Real;
@@ -32,11 +32,11 @@ impl<T: Real> Tank<T> {
         }
         let (mut place, mut velocity) = (place, velocity);
         for axis in 0..2 {
-            let high = self.size[axis] - self.clearance;
-            if place[axis] < self.clearance {
-                (place[axis], velocity[axis]) = (self.clearance, velocity[axis].max(T::zero()));
+            let (low, high) = (self.clearance, self.size[axis] - self.clearance);
+            if place[axis] < low {
+                (place[axis], velocity[axis]) = ((low + low - place[axis]).min(high), velocity[axis].max(T::zero()));
             } else if place[axis] > high {
-                (place[axis], velocity[axis]) = (high, velocity[axis].min(T::zero()));
+                (place[axis], velocity[axis]) = ((high + high - place[axis]).max(low), velocity[axis].min(T::zero()));
             }
         }
         (place, velocity)
