@@ -233,7 +233,7 @@ fn trouble(outcome: &Outcome) -> Option<String> {
         Trouble::Engine(EngineError::Device(_)) => "go on with it by `stillpoint resume`, or run it with --engine cpu",
         Trouble::Engine(_) => "try another effects.pressure.solver, or more regular points",
         Trouble::Energy { .. } => "try a smaller time.courant, a smaller cloud.spacing, or a larger guard.energy",
-        Trouble::Diverged(_) | Trouble::Grown { .. } | Trouble::Leapt { .. } => {
+        Trouble::Diverged(_) | Trouble::Grown { .. } => {
             "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step"
         }
         Trouble::NonFinite { .. } | Trouble::Figure { .. } | Trouble::Refused(_) => {

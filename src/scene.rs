@@ -501,7 +501,9 @@ fn survey(cloud: &Cloud, spacings: f64, needed: usize) -> Result<Survey, SceneEr
         }
         Ok(found)
     };
-    let most = (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)))?;
+    let most = (0..cloud.len()).into_par_iter().map(count).try_reduce(|| 0, |a, b| Ok(a.max(b)));
+    // Of several that are wrong the first is told of, whichever thread found its own first.
+    let most = most.or_else(|error| (0..cloud.len()).find_map(|point| count(point).err()).map_or(Err(error), Err))?;
     // Where the spacing varies, by the widest reach: groups that hang together by less are not told apart.
     Ok((most, first_apart(&cloud.position, &grid, cloud.period, spacings * cloud.spacing)))
 }

@@ -61,10 +61,8 @@ pub enum Trouble {
     Figure { name: &'static str, place: DVec2 },
     /// Points that move: the motion is no longer one of the fluid.
     Diverged(String),
-    /// Points that move: more energy than there was at the start, so many times as much.
+    /// Points that are shifted: more energy than there was at the start, so many times as much.
     Grown { times: f64 },
-    /// Points that move: so much more since the last row, as a part of that at the start.
-    Leapt { part: f64 },
     /// The engine could not go on.
     Engine(EngineError),
     /// No step could be chosen.
@@ -76,7 +74,7 @@ impl Trouble {
     pub(super) fn may_be_mended(&self) -> bool {
         match self {
             Trouble::NonFinite { .. } | Trouble::Energy { .. } | Trouble::Figure { .. } => true,
-            Trouble::Grown { .. } | Trouble::Leapt { .. } => true,
+            Trouble::Grown { .. } => true,
             Trouble::Engine(error) => {
                 matches!(
                     error,
@@ -105,7 +103,6 @@ impl Display for Trouble {
             }
             Trouble::Engine(error) => write!(out, "{error}"),
             Trouble::Grown { times } => write!(out, "the energy has grown to {times:.2} times that at the start"),
-            Trouble::Leapt { part } => write!(out, "the energy rose by {part:.3} of that at the start"),
             Trouble::Diverged(reason) | Trouble::Refused(reason) => write!(out, "{reason}"),
         }
     }

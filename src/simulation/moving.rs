@@ -13,8 +13,6 @@ use glam::DVec2;
 pub(super) const STRETCH: u32 = 10;
 /// Part by which the energy of a motion may exceed that at its start.
 const ENERGY_GROWTH: f64 = 0.05;
-/// The same from row to row, where shorter steps can still be tried: a point that is shot out of the surface takes as much.
-const ENERGY_LEAP: f64 = 0.01;
 /// Distance below which two points are one, in spacings.
 const CLUMPED: f64 = 0.01;
 /// Part of the points that may leave the domain: with more there is little left to simulate.
@@ -26,6 +24,7 @@ pub(super) struct Watch {
     floor: f64,
     /// Points at the start.
     points: usize,
+    shifted: bool,
     look: Option<Look>,
 }
 
@@ -42,7 +41,8 @@ impl Watch {
         let (gravity, size) = (scene.constants.gravity, scene.constants.size);
         let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
         let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
-        Self { floor, points: scene.cloud.interior, look: None }
+        let (points, shifted) = (scene.cloud.interior, scene.plan.motion == crate::case::Motion::Shifted);
+        Self { floor, points, shifted, look: None }
     }
 
     /// Energy above that of all fluid on the floor, m^4/s^2.
@@ -50,9 +50,9 @@ impl Watch {
         row.kinetic_energy + row.potential_energy - self.floor
     }
 
-    /// What is wrong, if something is; `last_try` where no shorter steps are left to try.
-    fn judge(&self, row: &motion::Row, motion: &Motion, last_try: bool) -> Option<Trouble> {
-        let (energy, start) = (self.energy(row), motion.energy);
+    /// What is wrong, if something is; `start` is the energy at the start.
+    fn judge(&self, row: &motion::Row, start: f64) -> Option<Trouble> {
+        let times = self.energy(row) / start;
         // Where every point is alone there are no two.
         if row.nearest[0] < CLUMPED && row.nearest[2] > 0.0 {
             return Some(Trouble::Diverged(format!("two points are {:.1e} spacings apart", row.nearest[0])));
@@ -61,11 +61,12 @@ impl Watch {
             let reason = format!("{} of {} points have left the domain", row.lost, self.points);
             return Some(Trouble::Diverged(reason));
         }
-        if energy > (1.0 + ENERGY_GROWTH) * start {
-            return Some(Trouble::Grown { times: energy / start });
-        }
-        let leapt = !last_try && energy > motion.last + ENERGY_LEAP * start;
-        leapt.then_some(Trouble::Leapt { part: (energy - motion.last) / start })
+        // One point that is shot out of the surface makes as much; shifted points may do without in shorter steps.
+        let grown = |times| match self.shifted {
+            true => Trouble::Grown { times },
+            false => Trouble::Diverged(format!("the energy has grown to {times:.2} times that at the start")),
+        };
+        (self.energy(row) > (1.0 + ENERGY_GROWTH) * start).then(|| grown(times))
     }
 }
 
@@ -121,13 +122,10 @@ impl Run<'_> {
         }
         let mut area = progress.motion.map_or(0.0, |motion| motion.area);
         let (snapshot, row) = self.moved(progress.step, progress.time, &mut area)?;
-        let energy = self.moving.energy(&row);
-        let begun = Motion { area, energy, last: energy, frames: 0 };
-        let last_try = progress.halvings >= self.scene.case.guard.retries;
+        let begun = Motion { area, energy: self.moving.energy(&row), frames: 0 };
         let motion = progress.motion.get_or_insert(begun);
-        let wrong = self.moving.judge(&row, motion, last_try);
+        let wrong = self.moving.judge(&row, motion.energy);
         if wrong.is_none() {
-            motion.last = energy;
             let due = |every: f64| row.time >= f64::from(motion.frames) * every * (1.0 - 1e-9);
             let frame = self.scene.case.output.frame_every.is_some_and(due);
             motion.frames += u32::from(frame);

@@ -45,8 +45,6 @@ pub struct Motion {
     pub area: f64,
     /// Energy at the start above that of all fluid on the floor, m^4/s^2.
     pub energy: f64,
-    /// The same at the last row.
-    pub last: f64,
     /// Frames that have been kept.
     pub frames: u32,
 }
@@ -71,9 +69,7 @@ impl Progress {
             _ if !positive(self.dt) => Err("its time step is none"),
             _ if !(self.speed.is_finite() && self.speed >= 0.0) => Err("its speed is none"),
             _ if !self.viscous.is_none_or(positive) => Err("its viscous limit is none"),
-            Self { motion: Some(Motion { area, energy, last, .. }), .. }
-                if !(positive(*area) && energy.is_finite() && last.is_finite()) =>
-            {
+            Self { motion: Some(Motion { area, energy, .. }), .. } if !(positive(*area) && energy.is_finite()) => {
                 Err("its first area or energy is none")
             }
             _ => Ok(()),
