@@ -133,7 +133,7 @@ fn row(
 ) -> Result<String, Box<dyn Error>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name).with_extension("toml");
     let spacing = BREADTH / f64::from(count);
-    let mut set = vec![format!("cloud.spacing={spacing:?}"), format!("time.end={end:?}")];
+    let mut set = vec![format!("cloud.spacing={spacing:?}"), format!("time.end={end:?}"), "expect={}".to_owned()];
     if name == "dam_break_mps" {
         set.push(format!("time.step={:?}", STEP * spacing));
     }

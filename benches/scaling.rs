@@ -93,6 +93,7 @@ fn collapse(name: &str, share: f64, breadth: u32, reports: u32) -> Result<Arc<Sc
         format!("cloud.spacing={spacing:?}"),
         format!("time.step={step:?}"),
         format!("time.end={:?}", step * f64::from(reports)),
+        "expect={}".to_owned(),
     ];
     Ok(Arc::new(Scene::build(&Case::load(&path, &changes)?)?))
 }
