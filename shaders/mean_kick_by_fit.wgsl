@@ -1,22 +1,19 @@
 // The kick of the mean pressure by the fitted gradient.
 //
-// Discrete: G = (h / rho) sum_j g_ij (P_j - P_i) inside, the rows of `assemble_gradient`. Units: m/s.
+// Discrete: G = (h / rho) sum_j g_ij (P_j - P_i) inside, the rows of `assemble_gradient`; nothing on walls. Units: m/s.
 
-#import points
-#import gradient
+#import fitted_gradient
+
+fn unknown(i: u32) -> real {
+    return mean_pressure[i];
+}
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let i = index_of(group, local);
-    if i >= PADDED {
-        return;
+    if i < INTERIOR {
+        pressure_kick[i] = clock[CLOCK_CORRECTION] * gradient_of(i);
+    } else if i < PADDED {
+        pressure_kick[i] = vector();
     }
-    let own = mean_pressure[i];
-    let first = at(i, 0u, CAPACITY);
-    let count = select(0u, min(neighbour_count[i], CAPACITY), i < INTERIOR);
-    var sum = vector();
-    for (var slot = 0u; slot < count; slot++) {
-        sum += (mean_pressure[neighbours[first + slot * BLOCK]] - own) * gradient_factors(i, slot);
-    }
-    pressure_kick[i] = clock[CLOCK_CORRECTION] * sum;
 }

@@ -1,14 +1,3 @@
 // Implicit viscosity, check 2 of 2: whether to iterate.
 
-#import monitor
-#import total
-
-@compute @workgroup_size(REDUCERS)
-fn main(@builtin(local_invocation_index) local: u32) {
-    let live = in_phase(PHASE_CHECKING);
-    let sum = total(local, live);
-    if local == 0u && live {
-        scalars[RZ] = sum.x;
-        recomputed(sum.y, sum.z);
-    }
-}
+#import conjugate_gradient_judge

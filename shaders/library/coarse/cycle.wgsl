@@ -1,5 +1,5 @@
 // One cycle through the grids of the coarse pressure, in four parts: `restrict` sums a residual up over the cells, `down` over four
-// cells at a time, `cycle` goes through the coarser grids and back, `up` ends on the finest. One damped Jacobi step stands before and
+// cells at a time, `coarser` goes through the coarser grids and back, `up` ends on the finest. One damped Jacobi step stands before and
 // one after on each grid. See `src/cpu/operations/coarse.rs`.
 
 #import coarse_grids
