@@ -7,7 +7,9 @@ use stillpoint::cloud::Cloud;
 use stillpoint::cpu;
 use stillpoint::engine::{Engine, EngineError};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Outcome, Stop, simulate};
+use stillpoint::simulation::{Diagnostics, Outcome, Stop, simulate};
+
+use crate::rows::Rows;
 
 pub type Open = fn(&Arc<Scene>) -> Result<Box<dyn Engine>, EngineError>;
 
@@ -16,20 +18,6 @@ pub struct Flow {
     pub scene: Arc<Scene>,
     pub outcome: Outcome,
     pub rows: Vec<Diagnostics>,
-}
-
-/// Keeps the rows.
-#[derive(Default)]
-struct Rows(Vec<Diagnostics>);
-
-impl Observer for Rows {
-    fn report(&mut self, row: &Diagnostics) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
 }
 
 /// Runs a case, or says in one line why not.
@@ -51,7 +39,7 @@ fn run(scene: Scene, open: Open) -> Result<Flow, String> {
 pub fn flow_on(scene: &Arc<Scene>, engine: &mut dyn Engine) -> Result<Flow, String> {
     let mut rows = Rows::default();
     let outcome = simulate(scene, engine, &mut rows).map_err(|error| error.to_string())?;
-    Ok(Flow { scene: Arc::clone(scene), outcome, rows: rows.0 })
+    Ok(Flow { scene: Arc::clone(scene), outcome, rows: rows.rows })
 }
 
 /// On the CPU in f64.

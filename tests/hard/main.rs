@@ -9,6 +9,8 @@ mod cases;
 mod hostile;
 #[path = "../support/random.rs"]
 mod random;
+#[path = "../support/rows.rs"]
+mod rows;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 

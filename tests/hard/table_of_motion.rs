@@ -9,34 +9,17 @@ use stillpoint::cpu;
 use stillpoint::engine::Engine;
 use stillpoint::motion;
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Stop, simulate};
+use stillpoint::simulation::{Stop, simulate};
 
 use crate::columns::{MPS, column};
 use crate::flow::{Flow, Open};
 use crate::random::Random;
+use crate::rows::Rows;
 use crate::spoiled::Spoiled;
 use crate::table::{Promise, Row};
 
 /// What the watch allows, over the energy at the start.
 const MOST_ENERGY: f64 = 1.05;
-
-/// Keeps the rows of both kinds.
-#[derive(Default)]
-struct Rows(Vec<Diagnostics>, Vec<motion::Row>);
-
-impl Observer for Rows {
-    fn report(&mut self, row: &Diagnostics) {
-        self.0.push(row.clone());
-    }
-
-    fn moved(&mut self, row: &motion::Row) {
-        self.1.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
 
 /// A run, and what was measured of its points.
 struct Moved {
@@ -55,7 +38,7 @@ fn scene(case: &Case, cloud: Option<Cloud>) -> Result<Arc<Scene>, String> {
 fn moved_on(scene: &Arc<Scene>, engine: &mut dyn Engine) -> Result<Moved, String> {
     let mut rows = Rows::default();
     let outcome = simulate(scene, engine, &mut rows).map_err(|error| error.to_string())?;
-    Ok(Moved { flow: Flow { scene: Arc::clone(scene), outcome, rows: rows.0 }, rows: rows.1 })
+    Ok(Moved { flow: Flow { scene: Arc::clone(scene), outcome, rows: rows.rows }, rows: rows.moved })
 }
 
 fn moved(case: &Case, cloud: Option<Cloud>, open: Open) -> Result<Moved, String> {

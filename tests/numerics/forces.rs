@@ -10,11 +10,12 @@ use stillpoint::cpu;
 use stillpoint::exact::Exact;
 use stillpoint::measure::{FieldError, Probe, Sampler};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Stop, simulate};
+use stillpoint::simulation::{Stop, simulate};
 use stillpoint::snapshot::Snapshot;
 
 use crate::bench::order;
 use crate::cases::{FIT, wake};
+use crate::rows::Rows;
 
 const CENTRE: DVec2 = DVec2::new(0.6, 0.45);
 const RADIUS: f64 = 0.17;
@@ -138,28 +139,16 @@ fn fluxes_and_differences_of_an_exact_flow_are_what_they_are() {
     }
 }
 
-struct Rows(Vec<Diagnostics>);
-
-impl Observer for Rows {
-    fn report(&mut self, row: &Diagnostics) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
-
 /// Relative errors of the velocity and of the force at the end of a run.
 fn run(case: &Case) -> [f64; 2] {
     let scene = Arc::new(Scene::build(case).expect("a scene"));
-    let mut rows = Rows(Vec::new());
+    let mut rows = Rows::default();
     let mut engine = cpu::double(&scene).expect("an engine");
     let outcome = simulate(&scene, engine.as_mut(), &mut rows).expect("a run");
     assert!(matches!(outcome.stop, Stop::End | Stop::Steady), "{:?}", outcome.stop);
     let exact = Exact::of(case).expect("an exact flow");
     let FieldError { difference, exact } = FieldError::new(&outcome.snapshot, &exact, Component::Velocity);
-    let last = rows.0.last().expect("a row");
+    let last = rows.rows.last().expect("a row");
     let [x, y] = last.probes[..] else { panic!("{last:?}") };
     let (right, size) = exact_force(case);
     [difference / exact, DVec2::new(x, y).distance(right) / size]

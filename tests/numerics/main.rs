@@ -6,6 +6,8 @@ mod bench;
 mod cases;
 #[path = "../support/random.rs"]
 mod random;
+#[path = "../support/rows.rs"]
+mod rows;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 

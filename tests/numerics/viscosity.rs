@@ -10,11 +10,12 @@ use stillpoint::engine::Outcome as Ended;
 use stillpoint::exact::Exact;
 use stillpoint::measure::{FieldError, LineMeasure, Sampler};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Limit, Observer, Outcome, simulate};
+use stillpoint::simulation::{Diagnostics, Limit, Outcome, simulate};
 use stillpoint::step::{Buffer, Operation};
 
 use crate::bench::{Bench, most, order};
 use crate::cases::{ARRANGEMENTS, cavity, cavity_of};
+use crate::rows::Rows;
 
 const IMPLICIT: &str = "effects.viscosity.scheme=implicit";
 const OURS: [Operation; 7] = [
@@ -36,24 +37,10 @@ const ARRAYS: [Buffer; 7] = [
     Buffer::MeanPressure,
 ];
 
-/// Keeps the rows.
-#[derive(Default)]
-struct Rows(Vec<Diagnostics>);
-
-impl Observer for Rows {
-    fn report(&mut self, row: &Diagnostics) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
-
 fn run(case: &Case) -> (Outcome, Vec<Diagnostics>) {
     let (scene, mut rows) = (Arc::new(Scene::build(case).expect("a scene")), Rows::default());
     let outcome = simulate(&scene, cpu::double(&scene).expect("an engine").as_mut(), &mut rows).expect("a run");
-    (outcome, rows.0)
+    (outcome, rows.rows)
 }
 
 /// The solution of the solve, put into its equation by hand.

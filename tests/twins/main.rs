@@ -7,6 +7,8 @@
 mod adapter;
 #[path = "../support/cases.rs"]
 mod cases;
+#[path = "../support/rows.rs"]
+mod rows;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 

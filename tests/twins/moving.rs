@@ -9,9 +9,10 @@ use stillpoint::engine::Engine;
 use stillpoint::gpu::Precision;
 use stillpoint::motion::Row;
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Stop, simulate};
+use stillpoint::simulation::{Stop, simulate};
 
 use crate::engines::{candidate, gpu};
+use crate::rows::Rows;
 
 /// A column ten spacings wide and twice as high, 100 steps of its collapse.
 const SHORT: [&str; 4] =
@@ -23,22 +24,6 @@ const SHORT: [&str; 4] =
 const DOUBLE: f64 = 1e-6;
 const SINGLE: f64 = 5e-3;
 
-/// Keeps the rows of `motion.csv`.
-#[derive(Default)]
-struct Rows(Vec<Row>);
-
-impl Observer for Rows {
-    fn report(&mut self, _: &Diagnostics) {}
-
-    fn moved(&mut self, row: &Row) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
-
 fn collapse(name: &str, changes: &[&str]) -> Arc<Scene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
     let changes: Vec<String> = SHORT.iter().chain(changes).map(|&change| change.to_owned()).collect();
@@ -49,7 +34,7 @@ fn rows(scene: &Scene, engine: &mut dyn Engine) -> Vec<Row> {
     let mut rows = Rows::default();
     let outcome = simulate(scene, engine, &mut rows).expect("a run");
     assert_eq!((outcome.stop, outcome.steps), (Stop::End, 100));
-    rows.0
+    rows.moved
 }
 
 /// The largest differences of front and energies over all rows, relative.

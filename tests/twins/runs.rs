@@ -12,27 +12,14 @@ use stillpoint::simulation::{Diagnostics, Observer, Outcome, State, Stop, resume
 
 use crate::cases::{cavity_of, turning};
 use crate::engines::{candidate, gpu};
+use crate::rows::Rows;
 use crate::scenes;
-
-/// Keeps the rows.
-#[derive(Default)]
-struct Rows(Vec<Diagnostics>);
-
-impl Observer for Rows {
-    fn report(&mut self, row: &Diagnostics) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
 
 fn run(scene: &Scene, engine: &mut dyn Engine) -> (Outcome, Vec<Diagnostics>) {
     let mut rows = Rows::default();
     let outcome = simulate(scene, engine, &mut rows).expect("a run");
     assert_eq!(outcome.stop, Stop::End);
-    (outcome, rows.0)
+    (outcome, rows.rows)
 }
 
 /// Velocity components in m/s, pressures in Pa, and what is carried, one after the other.

@@ -8,23 +8,9 @@ use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::motion::{self, Row};
 use stillpoint::scene::Scene;
-use stillpoint::simulation::{Diagnostics, Observer, Outcome, Stop, Trouble, simulate};
+use stillpoint::simulation::{Outcome, Stop, Trouble, simulate};
 
-/// Keeps the rows about the points.
-#[derive(Default)]
-struct Watch(Vec<Row>);
-
-impl Observer for Watch {
-    fn report(&mut self, _: &Diagnostics) {}
-
-    fn moved(&mut self, row: &Row) {
-        self.0.push(row.clone());
-    }
-
-    fn stop_requested(&self) -> bool {
-        false
-    }
-}
+use crate::rows::Rows;
 
 fn run(name: &str, overrides: &[&str]) -> (Scene, Outcome, Vec<Row>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
@@ -32,9 +18,9 @@ fn run(name: &str, overrides: &[&str]) -> (Scene, Outcome, Vec<Row>) {
     let case = Case::load(&path, &overrides).expect("a shipped case");
     let scene = Scene::build(&case).expect("a scene");
     let shared = Arc::new(scene.clone());
-    let mut watch = Watch::default();
-    let outcome = simulate(&shared, cpu::double(&shared).expect("an engine").as_mut(), &mut watch).expect("a run");
-    (scene, outcome, watch.0)
+    let mut rows = Rows::default();
+    let outcome = simulate(&shared, cpu::double(&shared).expect("an engine").as_mut(), &mut rows).expect("a run");
+    (scene, outcome, rows.moved)
 }
 
 /// Kinetic and potential energy, m^4/s^2.
