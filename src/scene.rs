@@ -384,8 +384,6 @@ impl Scene {
         let length = self.padded() * slots;
         let (mut neighbour, mut weight) = (vec![0; length], vec![0.0; length]);
         let (mut count, mut diagonal) = (vec![0; self.padded()], vec![1.0; self.padded()]);
-        let sum: Vec<f64> =
-            (0..self.sizes.points).map(|point| cells.faces(point).map(|(_, face)| face).sum()).collect();
         let at = |point: usize, slot: usize| blocks::at(point, slot, slots);
         for point in 0..self.padded() {
             let own = point.min(self.sizes.points - 1);
@@ -408,7 +406,6 @@ impl Scene {
             (Buffer::FaceWeight, Data::Real(weight)),
             (Buffer::FaceCount, Data::Index(count)),
             (Buffer::Diagonal, Data::Real(diagonal)),
-            (Buffer::FaceSum, self.scalars(&sum, 0.0)),
         ]
     }
 

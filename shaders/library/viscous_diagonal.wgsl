@@ -2,7 +2,7 @@
 // diagonal's product with a solution, both as velocities.
 
 fn viscous_diagonal(i: u32) -> real {
-    return volume[i] + clock[CLOCK_DIFFUSION] * face_sum[i];
+    return volume[i] + clock[CLOCK_DIFFUSION] * diagonal[i];
 }
 
 fn viscous_squares(i: u32, residual: vector, solution: vector) -> vector {

@@ -110,14 +110,12 @@ pub enum Buffer {
     /// What a porous body takes of a velocity, `nu / k`, 1/s; 0 where there is none. Drag alone.
     Resistance,
     /// The velocity in the middle of the kick, viscosity taken there, m/s; interleaved. Implicit viscosity alone, as the
-    /// six below.
+    /// five below.
     Middle,
     /// Its solver's vectors, m^3/s, m/s and m^3/s; interleaved.
     ViscousResidual,
     ViscousDirection,
     ViscousProduct,
-    /// Sum of the weights of a cell's faces, `sum_j w_ij`, no unit.
-    FaceSum,
     /// Divergence that is to be taken off `Middle`, 1/s.
     Dilation,
     /// Relaxed mean of the pressures, Pa, whose kick is `PressureKick`.
@@ -212,7 +210,6 @@ impl Buffer {
             Buffer::ViscousResidual => ("viscous_residual", None),
             Buffer::ViscousDirection => ("viscous_direction", None),
             Buffer::ViscousProduct => ("viscous_product", None),
-            Buffer::FaceSum => ("face_sum", None),
             Buffer::Dilation => ("dilation", None),
             Buffer::MeanPressure => ("mean_pressure", None),
             Buffer::Residual => ("residual", None),

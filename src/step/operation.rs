@@ -352,7 +352,7 @@ impl Operation {
             Operation::Viscosity(stage) => with(sums(LaplacianRow), &[stage.velocity()]),
             Operation::Drag if plan.kick.contains(&Operation::Reflect) => vec![Velocity, Resistance, PressureKick],
             Operation::Drag => vec![Velocity, Resistance],
-            Operation::ImplicitViscosity => with(faces.to_vec(), &[FaceSum, Volume, Projected]),
+            Operation::ImplicitViscosity => with(faces.to_vec(), &[Diagonal, Volume, Projected]),
             Operation::ImplicitKick => vec![Middle, Projected],
             Operation::PredictImplicit => vec![Middle, PressureKick, Kick],
             Operation::AddMeanPressure => with(faces.to_vec(), &[MeanPressure, Volume]),

@@ -27,12 +27,11 @@ const OURS: [Operation; 7] = [
     Operation::MeanKickByFit,
     Operation::MeanKickByAdjoint,
 ];
-const ARRAYS: [Buffer; 7] = [
+const ARRAYS: [Buffer; 6] = [
     Buffer::Middle,
     Buffer::ViscousResidual,
     Buffer::ViscousDirection,
     Buffer::ViscousProduct,
-    Buffer::FaceSum,
     Buffer::Dilation,
     Buffer::MeanPressure,
 ];

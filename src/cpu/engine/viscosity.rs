@@ -99,7 +99,7 @@ impl<T: Real> CpuEngine<T> {
             {
                 let matrix = implicit_viscosity::Matrix {
                     faces: self.faces()?,
-                    face_sum: self.fields.real(Buffer::FaceSum)?,
+                    face_sum: self.fields.real(Buffer::Diagonal)?,
                     volume: self.fields.real(Buffer::Volume)?,
                     per_volume: &self.per_volume,
                     diffusion,
