@@ -39,6 +39,24 @@ pub fn packs<T: Real>(block: usize, end: usize) -> impl Iterator<Item = usize> {
     (block * BLOCK..((block + 1) * BLOCK).min(end)).step_by(T::Pack::LANES)
 }
 
+/// Adds to the interleaved vectors of points `i..` in `out`, whose first vector is that of point `start`, as far as `end`.
+#[inline(always)]
+pub fn add_vectors<T: Real>(out: &mut [T], start: usize, i: usize, end: usize, [x, y]: [T::Pack; 2]) {
+    for lane in 0..T::Pack::LANES.min(end.saturating_sub(i)) {
+        out[2 * (i - start + lane)] += x.lane(lane);
+        out[2 * (i - start + lane) + 1] += y.lane(lane);
+    }
+}
+
+/// The same in place of what was there.
+#[inline(always)]
+pub fn set_vectors<T: Real>(out: &mut [T], start: usize, i: usize, end: usize, [x, y]: [T::Pack; 2]) {
+    for lane in 0..T::Pack::LANES.min(end.saturating_sub(i)) {
+        out[2 * (i - start + lane)] = x.lane(lane);
+        out[2 * (i - start + lane) + 1] = y.lane(lane);
+    }
+}
+
 /// Runs `body(block, values)` for every block of an array with `slots` entries a point.
 pub fn for_each<R: Send>(out: &mut [R], slots: usize, body: &(dyn Fn(usize, &mut [R]) + Sync)) {
     let width = slots * BLOCK;

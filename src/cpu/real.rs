@@ -106,6 +106,14 @@ pub trait Pack<T: Real>:
         let values = &values[..2 * Self::LANES];
         [Self::from_lanes(|lane| values[2 * lane]), Self::from_lanes(|lane| values[2 * lane + 1])]
     }
+
+    /// Writes them back.
+    #[inline(always)]
+    fn store_vectors([x, y]: [Self; 2], values: &mut [T]) {
+        for (lane, value) in values.chunks_exact_mut(2).take(Self::LANES).enumerate() {
+            (value[0], value[1]) = (x.lane(lane), y.lane(lane));
+        }
+    }
 }
 
 macro_rules! real {

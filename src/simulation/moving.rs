@@ -52,7 +52,6 @@ impl Watch {
 
     /// What is wrong, if something is; `start` is the energy at the start.
     fn judge(&self, row: &motion::Row, start: f64) -> Option<Trouble> {
-        let times = self.energy(row) / start;
         // Where every point is alone there are no two.
         if row.nearest[0] < CLUMPED && row.nearest[2] > 0.0 {
             return Some(Trouble::Diverged(format!("two points are {:.1e} spacings apart", row.nearest[0])));
@@ -61,12 +60,13 @@ impl Watch {
             let reason = format!("{} of {} points have left the domain", row.lost, self.points);
             return Some(Trouble::Diverged(reason));
         }
+        let exceeds = self.energy(row) > (1.0 + ENERGY_GROWTH) * start;
+        if !exceeds {
+            return None;
+        }
         // One point that is shot out of the surface makes as much; shifted points may do without in shorter steps.
-        let grown = |times| match self.shifted {
-            true => Trouble::Grown { times },
-            false => Trouble::Diverged(format!("the energy has grown to {times:.2} times that at the start")),
-        };
-        (self.energy(row) > (1.0 + ENERGY_GROWTH) * start).then(|| grown(times))
+        let grown = Trouble::Grown { times: self.energy(row) / start };
+        Some(if self.shifted { grown } else { Trouble::Diverged(grown.to_string()) })
     }
 }
 

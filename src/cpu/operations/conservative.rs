@@ -159,11 +159,7 @@ pub fn correct_by_adjoint<T: Real, S: Space<T>>(
                 sum[1] += difference * y;
             });
             let scale = factor / T::Pack::load(&volume[i..]);
-            let [x, y] = sum.map(|sum| scale * sum);
-            for lane in 0..T::Pack::LANES.min(end - i) {
-                out[2 * (i - block * BLOCK + lane)] += x.lane(lane);
-                out[2 * (i - block * BLOCK + lane) + 1] += y.lane(lane);
-            }
+            blocks::add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
         }
     });
 }

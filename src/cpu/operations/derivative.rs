@@ -89,22 +89,13 @@ impl<T: Real> Gradient<'_, T> {
     }
 }
 
-/// Adds to the interleaved vectors of points `i..` in `out`, whose first vector is that of point `start`, as far as `end`.
-#[inline(always)]
-fn add_vectors<T: Real>(out: &mut [T], start: usize, i: usize, end: usize, [x, y]: [T::Pack; 2]) {
-    for lane in 0..T::Pack::LANES.min(end.saturating_sub(i)) {
-        out[2 * (i - start + lane)] += x.lane(lane);
-        out[2 * (i - start + lane) + 1] += y.lane(lane);
-    }
-}
-
 /// Viscosity: `kick += dt nu lap u` at the points below `end`.
 pub fn viscosity<T: Real>(laplacian: Laplacian<T>, velocity: &[T], diffusion: T, end: usize, kick: &mut [T]) {
     let scale = T::Pack::splat(diffusion);
     blocks::for_each(kick, 2, &|block, out| {
         for i in blocks::packs::<T>(block, end) {
             let sum = laplacian.of_vector(i, velocity);
-            add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
+            blocks::add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
         }
     });
 }
@@ -121,7 +112,7 @@ pub fn correct_by_fit<T: Real>(
     blocks::for_each(intermediate, 2, &|block, out| {
         for i in blocks::packs::<T>(block, end) {
             let sum = gradient.of_scalar(i, pressure);
-            add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
+            blocks::add_vectors::<T>(out, block * BLOCK, i, end, sum.map(|sum| scale * sum));
         }
     });
 }
@@ -130,11 +121,7 @@ pub fn correct_by_fit<T: Real>(
 pub fn gradient<T: Real>(gradient: Gradient<T>, field: &[T], out: &mut [T]) {
     blocks::for_each(out, 2, &|block, out| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
-            let [x, y] = gradient.of_scalar(block * BLOCK + first, field);
-            for lane in 0..T::Pack::LANES {
-                out[2 * (first + lane)] = x.lane(lane);
-                out[2 * (first + lane) + 1] = y.lane(lane);
-            }
+            T::Pack::store_vectors(gradient.of_scalar(block * BLOCK + first, field), &mut out[2 * first..]);
         }
     });
 }

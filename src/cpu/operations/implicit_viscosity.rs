@@ -97,14 +97,6 @@ impl<T: Real> Matrix<'_, T> {
     }
 }
 
-#[inline(always)]
-fn store<T: Real>([x, y]: [T::Pack; 2], out: &mut [T]) {
-    for lane in 0..T::Pack::LANES {
-        out[2 * lane] = x.lane(lane);
-        out[2 * lane + 1] = y.lane(lane);
-    }
-}
-
 /// Solves for `middle` from what it holds, its walls as they are; `before` is `b`. Postcondition: the recomputed residual is below
 /// what `stop` asks for, or the outcome says why not.
 pub fn solve<T: Real>(
@@ -130,8 +122,8 @@ pub fn solve<T: Real>(
                 let value = [0, 1].map(|k| matrix.inside(i, volume * source[k]) - taken[k]);
                 let diagonal = matrix.diagonal(i);
                 let z = value.map(|value| matrix.inside(i, value / diagonal));
-                store::<T>(value, &mut r[k..]);
-                store::<T>(z, &mut d[k..]);
+                T::Pack::store_vectors(value, &mut r[k..]);
+                T::Pack::store_vectors(z, &mut d[k..]);
                 sums[0] += value[0] * z[0] + value[1] * z[1];
                 matrix.measure(i, value, load(middle, 2 * i), &mut sums[1..]);
             }
@@ -146,7 +138,7 @@ pub fn solve<T: Real>(
                 for k in (0..q.len()).step_by(width) {
                     let i = (start + k) / 2;
                     let (value, own) = (matrix.product(i, direction), load(direction, 2 * i));
-                    store::<T>(value, &mut q[k..]);
+                    T::Pack::store_vectors(value, &mut q[k..]);
                     dq += value[0] * own[0] + value[1] * own[1];
                 }
                 [lanes::<T>(dq)]
@@ -165,8 +157,8 @@ pub fn solve<T: Real>(
                     let (own, left) = (load(u, k), load(r, k));
                     let solution = [0, 1].map(|c| own[c] + alpha * way[c]);
                     let value = [0, 1].map(|c| left[c] - alpha * taken[c]);
-                    store::<T>(solution, &mut u[k..]);
-                    store::<T>(value, &mut r[k..]);
+                    T::Pack::store_vectors(solution, &mut u[k..]);
+                    T::Pack::store_vectors(value, &mut r[k..]);
                     let diagonal = matrix.diagonal(i);
                     sums[0] += matrix.inside(i, (value[0] * value[0] + value[1] * value[1]) / diagonal);
                     matrix.measure(i, value, solution, &mut sums[1..]);
@@ -180,7 +172,7 @@ pub fn solve<T: Real>(
                     let i = (start + k) / 2;
                     let (left, own, diagonal) = (load(residual, 2 * i), load(d, k), matrix.diagonal(i));
                     let next = [0, 1].map(|c| matrix.inside(i, left[c] / diagonal) + beta * own[c]);
-                    store::<T>(next, &mut d[k..]);
+                    T::Pack::store_vectors(next, &mut d[k..]);
                 }
                 []
             });

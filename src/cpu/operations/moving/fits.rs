@@ -136,12 +136,9 @@ pub fn viscosity<T: Real>(coefficients: &[T], diffusion: T, radius: T, interior:
     let factor = T::Pack::splat(T::from_f64(2.0) * diffusion / (radius * radius));
     blocks::for_each(kick, 2, &|block, out| {
         for i in blocks::packs::<T>(block, interior) {
-            let [x, y] = [0, 1]
+            let push = [0, 1]
                 .map(|axis| factor * (coefficient(coefficients, i, axis, 2) + coefficient(coefficients, i, axis, 4)));
-            for lane in 0..T::Pack::LANES.min(interior - i) {
-                out[2 * (i - block * BLOCK + lane)] += x.lane(lane);
-                out[2 * (i - block * BLOCK + lane) + 1] += y.lane(lane);
-            }
+            blocks::add_vectors::<T>(out, block * BLOCK, i, interior, push);
         }
     });
 }

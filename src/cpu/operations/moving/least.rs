@@ -102,13 +102,15 @@ fn correct<T: Real, const MOMENTS: bool>(
             }
             let factor = T::Pack::splat(-per_density) * stencil.per_radius;
             let change = gradient.map(|gradient| factor * gradient);
-            for lane in 0..T::Pack::LANES.min(interior - i) {
-                for (axis, change) in change.iter().enumerate() {
-                    let at = 2 * (i - block * BLOCK + lane) + axis;
-                    projected[at] += change.lane(lane);
-                    displacement[at] = dt * change.lane(lane);
-                }
-            }
+            let start = block * BLOCK;
+            blocks::add_vectors::<T>(projected, start, i, interior, change);
+            blocks::set_vectors::<T>(
+                displacement,
+                start,
+                i,
+                interior,
+                change.map(|change| T::Pack::splat(dt) * change),
+            );
         }
     });
 }

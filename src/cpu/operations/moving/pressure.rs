@@ -165,13 +165,15 @@ pub fn correct<T: Real>(
             let fitted = moments::solve(&factor_of(factor, i), right);
             let scale = T::Pack::splat(-dt_per_density) * stencil.per_radius;
             let change = [scale * fitted[0], scale * fitted[1]];
-            for lane in 0..T::Pack::LANES.min(interior - i) {
-                for (axis, change) in change.iter().enumerate() {
-                    let at = 2 * (i - block * BLOCK + lane) + axis;
-                    projected[at] += change.lane(lane);
-                    displacement[at] = dt * change.lane(lane);
-                }
-            }
+            let start = block * BLOCK;
+            blocks::add_vectors::<T>(projected, start, i, interior, change);
+            blocks::set_vectors::<T>(
+                displacement,
+                start,
+                i,
+                interior,
+                change.map(|change| T::Pack::splat(dt) * change),
+            );
         }
     });
 }

@@ -73,13 +73,8 @@ pub fn shift<T: Real>(
             let basis: [T::Pack; N] = moments::basis(x, y);
             let carried = [0, 1]
                 .map(|axis| (0..N).fold(zero, |sum, k| coefficient(coefficients, i, axis, k).mul_add(basis[k], sum)));
-            for lane in 0..T::Pack::LANES.min(interior - i) {
-                for axis in 0..2 {
-                    let at = 2 * (i - block * BLOCK + lane) + axis;
-                    projected[at] += carried[axis].lane(lane);
-                    displacement[at] += delta[axis].lane(lane);
-                }
-            }
+            blocks::add_vectors::<T>(projected, block * BLOCK, i, interior, carried);
+            blocks::add_vectors::<T>(displacement, block * BLOCK, i, interior, delta);
         }
     });
 }
