@@ -26,16 +26,22 @@ impl Shape {
             return Shape::Figure(Figure::new(parts));
         }
         match (&obstacle.circle, &obstacle.polygon) {
-            (Some(circle), _) => Shape::Circle { centre: DVec2::from_array(circle.centre), radius: circle.radius },
-            (None, corners) => {
-                let mut corners: Vec<DVec2> =
-                    corners.iter().flatten().map(|&corner| DVec2::from_array(corner)).collect();
-                if doubled(&corners) < 0.0 {
-                    corners.reverse();
-                }
-                Shape::Polygon(corners)
-            }
+            (Some(circle), _) => Self::circle(circle),
+            (None, corners) => Self::polygon(corners.as_deref().unwrap_or_default()),
         }
+    }
+
+    pub fn circle(circle: &case::Circle) -> Self {
+        Shape::Circle { centre: DVec2::from_array(circle.centre), radius: circle.radius }
+    }
+
+    /// Of corners either way round.
+    pub fn polygon(corners: &[[f64; 2]]) -> Self {
+        let mut corners: Vec<DVec2> = corners.iter().map(|&corner| DVec2::from_array(corner)).collect();
+        if doubled(&corners) < 0.0 {
+            corners.reverse();
+        }
+        Shape::Polygon(corners)
     }
 
     /// Distance of a place from the outline, negative inside, m.

@@ -184,19 +184,7 @@ pub(super) fn declare(bindings: &[Binding]) -> String {
 
 /// x and y of a point side by side.
 fn interleaved(buffer: Buffer) -> bool {
-    let none = Sizes {
-        points: 0,
-        interior: 0,
-        pressured: 0,
-        capacity: 0,
-        face_capacity: 0,
-        flux_capacity: 0,
-        open_capacity: 0,
-        cells: 0,
-        coefficients: 0,
-        coarse: 0,
-    };
-    buffer.per_point(&none) == Some(2)
+    buffer.per_point(&Sizes::default()) == Some(2)
 }
 
 /// The identifiers of a source, comments apart.

@@ -35,22 +35,15 @@ fn check_shape(case: &Case, obstacle: &Obstacle, key: &dyn Fn(&str) -> String) -
     let inside = |place: DVec2| {
         place.cmpgt(DVec2::ZERO).all() && place.cmplt(DVec2::new(case.domain.width, case.domain.height)).all()
     };
-    let outside = |name: &str| {
-        let reason = format!("must lie inside the domain, {} x {} m", case.domain.width, case.domain.height);
-        Err(Fault::reason(&key(name), reason))
-    };
+    let domain = format!("{} x {} m", case.domain.width, case.domain.height);
+    let outside = |name: &str| Err(Fault::reason(&key(name), format!("must lie inside the domain, {domain}")));
     if let Some(parts) = &obstacle.parts {
         if obstacle.circle.is_some() || obstacle.polygon.is_some() {
             let reason =
                 "an obstacle has one shape, and there is a circle or a polygon beside its parts; leave one out";
             return Err(Fault::reason(&key("parts"), reason));
         }
-        return check_parts(
-            parts,
-            &inside,
-            &key("parts"),
-            &format!("{} x {} m", case.domain.width, case.domain.height),
-        );
+        return check_parts(parts, &inside, &key("parts"), &domain);
     }
     match (&obstacle.circle, &obstacle.polygon) {
         (Some(_), Some(_)) => {

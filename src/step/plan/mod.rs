@@ -11,7 +11,7 @@ use super::{Buffer, Carried, Element, Operation, Points};
 use crate::case::{Case, Motion, PressureForm, Problem, Solver, Splitting};
 
 /// How many of everything there are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Sizes {
     pub points: usize,
     pub interior: usize,

@@ -18,19 +18,7 @@ impl Plan {
         if !interpolation {
             kick.push(Operation::Average);
         }
-        Self {
-            setup,
-            on_step: Vec::new(),
-            drift: Vec::new(),
-            kick,
-            form: None,
-            splitting: Splitting::Projection,
-            through_flow: false,
-            outlets: false,
-            carried: Vec::new(),
-            flows: false,
-            motion: Motion::Fixed,
-        }
+        Self::once(setup, kick, None)
     }
 
     /// The pressure equation with a known source.
@@ -43,12 +31,17 @@ impl Plan {
             setup.push(Operation::AssembleCollocated);
         }
         let kick = vec![solve_by(pressure.solver())];
+        Self::once(setup, kick, Some(pressure.form()))
+    }
+
+    /// All there is to do is the kick.
+    fn once(setup: Vec<Operation>, kick: Vec<Operation>, form: Option<PressureForm>) -> Self {
         Self {
             setup,
             on_step: Vec::new(),
             drift: Vec::new(),
             kick,
-            form: Some(pressure.form()),
+            form,
             splitting: Splitting::Projection,
             through_flow: false,
             outlets: false,
