@@ -2,8 +2,9 @@
 
 use super::args::CaseArguments;
 use super::{CliError, load, print};
+use crate::cloud::Cloud;
 
 pub(super) fn check(arguments: &CaseArguments) -> Result<(), CliError> {
     let case = load(arguments)?;
-    print(format_args!("ok: {}, about {} points", case.title, case.point_estimate()))
+    print(format_args!("ok: {}, about {} points", case.title, Cloud::estimate(&case).round()))
 }

@@ -137,6 +137,16 @@ impl Cloud {
         Ok(cloud)
     }
 
+    /// About how many points [`Cloud::build`] puts into the fluid, without laying them out; obstacles are not taken off.
+    pub fn estimate(case: &case::Case) -> f64 {
+        if let Some(fill) = &case.cloud.fill {
+            let way = DVec2::from(fill.to) - DVec2::from(fill.from);
+            return (way / case.cloud.spacing).element_product();
+        }
+        let sizing = Sizing::of(case);
+        if sizing.is_even() { case.point_estimate() } else { sizing.points().max(case.point_estimate()) }
+    }
+
     /// Distance from a place to the nearest outline, negative inside an obstacle, m; infinite without obstacles.
     pub fn clearance(&self, place: DVec2) -> f64 {
         self.outlines.iter().map(|outline| outline.shape.distance(place)).fold(f64::INFINITY, f64::min)

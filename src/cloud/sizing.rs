@@ -8,6 +8,9 @@ use glam::DVec2;
 use super::shape::Shape;
 use crate::case::Case;
 
+/// Places along each side at which the spacings are looked at to tell how many points they make.
+const SAMPLES: usize = 256;
+
 /// The size function of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizing {
@@ -85,6 +88,14 @@ impl Sizing {
         self.refinements.iter().map(|refinement| refinement.spacing).fold(self.base, f64::min)
     }
 
+    /// About how many points fill the rectangle with these spacings.
+    pub fn points(&self) -> f64 {
+        let piece = self.size / SAMPLES as f64;
+        let middles =
+            (0..SAMPLES * SAMPLES).map(|k| DVec2::new((k % SAMPLES) as f64 + 0.5, (k / SAMPLES) as f64 + 0.5));
+        middles.map(|middle| piece.element_product() / self.at(middle * piece).powi(2)).sum()
+    }
+
     /// True where the spacing is `l0` everywhere.
     pub fn is_even(&self) -> bool {
         self.refinements.is_empty()
@@ -93,5 +104,21 @@ impl Sizing {
     /// Width and height of the rectangle, m.
     pub fn size(&self) -> DVec2 {
         self.size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::cloud::Cloud;
+
+    #[test]
+    fn a_graded_cloud_has_about_as_many_points_as_it_says() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/cavity_re1000_graded.toml");
+        let case = Case::load(&path, &["cloud.spacing=0.125".to_owned()]).expect("a case");
+        let (said, made) = (Cloud::estimate(&case), Cloud::build(&case).expect("a cloud").len() as f64);
+        assert!((said / made - 1.0).abs() < 0.1, "{said} points said, {made} made");
     }
 }

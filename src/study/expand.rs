@@ -13,6 +13,7 @@ use crate::case::error::one_line;
 use crate::case::fault::Fault;
 use crate::case::load::{Change, explain};
 use crate::case::{Case, CaseError, keys};
+use crate::cloud::Cloud;
 use crate::scene::Scene;
 
 /// Clouds of at most so many points are laid out before the study begins, to see that they can be.
@@ -115,7 +116,7 @@ impl<'a> Expansion<'a> {
     fn try_cloud(&self, case: &Case, words: &str) -> Result<(), StudyError> {
         let same =
             |known: &Case| (&known.domain, &known.cloud, &known.method) == (&case.domain, &case.cloud, &case.method);
-        if case.point_estimate() > CHEAP || self.trials.iter().any(|trial| same(&trial.case)) {
+        if Cloud::estimate(case) > CHEAP || self.trials.iter().any(|trial| same(&trial.case)) {
             return Ok(());
         }
         let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: one_line(words), source };

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use stillpoint::case::Case;
+use stillpoint::cloud::Cloud;
 use stillpoint::cpu;
 use stillpoint::output::checkpoint::Checkpoint;
 use stillpoint::scene::Scene;
@@ -23,7 +24,7 @@ pub fn case(bytes: &[u8]) -> bool {
     let path = Path::new(ROOT).join("cases/hostile.toml");
     match Case::from_text(text, &path, &[]) {
         Ok(case) => {
-            if case.point_estimate() <= SMALL
+            if Cloud::estimate(&case) <= SMALL
                 && let Err(error) = Scene::build(&case)
             {
                 one_line(&error.to_string(), "");
@@ -56,7 +57,7 @@ pub fn checkpoint(bytes: &[u8]) -> bool {
     let path = Path::new("hostile");
     let read = |bytes: &[u8]| {
         let made = Checkpoint::decode(bytes, path).and_then(|checkpoint| {
-            if checkpoint.case.point_estimate() > SMALL {
+            if Cloud::estimate(&checkpoint.case) > SMALL {
                 return Ok(());
             }
             match Scene::build(&checkpoint.case) {
