@@ -22,13 +22,15 @@ use stillpoint::run::{self, Job};
 use stillpoint::scene::Scene;
 
 /// Case, its picture, and what of it is changed for a shorter run.
-const SHOWN: [(&str, &str, &[&str]); 22] = [
+const SHOWN: [(&str, &str, &[&str]); 24] = [
     ("cavity_re100_paper", "pressure", &["cloud.spacing=0.05"]),
     ("cavity_re100_paper_random", "pressure", &["cloud.spacing=0.025", "time.end=6.0"]),
     ("cavity_re100_random", "centreline", &[]),
     ("cavity_re400", "speed", &["cloud.spacing=0.03125"]),
     ("cavity_re1000", "speed", &["cloud.spacing=0.03125"]),
     ("cavity_re1000_graded", "speed", &["time.end=20.0"]),
+    ("cavity_re3200", "speed", &["cloud.spacing=0.015625", "time.end=60.0"]),
+    ("cavity_re3200_graded", "speed", &["time.end=60.0"]),
     ("channel", "pressure", &[]),
     ("couette", "centreline", &[]),
     ("cylinder_re20", "speed", &["time.end=6.0"]),
