@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Diagnostics, Limit, Progress, Run, SimulationError, State, Trouble, moving, steps_in};
+use super::length::steps_in;
+use super::{Diagnostics, Limit, Progress, Run, SimulationError, State, Trouble, moving};
 use crate::engine::NonFinite;
 
 /// Steps between two looks at the kinetic energy, where rows of diagnostics are further apart.
