@@ -160,14 +160,19 @@ pub fn sum_over<R: Send, const N: usize, const M: usize>(
     partial.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
 }
 
-/// Adds up what `body` returns for consecutive ranges of `0..length`; the same ranges and order on any number of threads.
-pub fn sum_ranges<const M: usize>(length: usize, body: &(dyn Fn(Range<usize>) -> [f64; M] + Sync)) -> [f64; M] {
+/// What `body` returns for consecutive ranges of `0..length`; the same ranges and order on any number of threads.
+pub fn map_ranges<R: Send>(length: usize, body: &(dyn Fn(Range<usize>) -> R + Sync)) -> Vec<R> {
     let range = |task: usize| task * CHUNK..((task + 1) * CHUNK).min(length);
     let tasks = length.div_ceil(CHUNK);
-    let partial: Vec<[f64; M]> = if length < SERIAL_BELOW {
+    if length < SERIAL_BELOW {
         (0..tasks).map(|task| body(range(task))).collect()
     } else {
         (0..tasks).into_par_iter().map(|task| body(range(task))).collect()
-    };
-    partial.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
+    }
+}
+
+/// The sum of that.
+pub fn sum_ranges<const M: usize>(length: usize, body: &(dyn Fn(Range<usize>) -> [f64; M] + Sync)) -> [f64; M] {
+    let parts = map_ranges(length, body);
+    parts.into_iter().fold([0.0; M], |sum, part| std::array::from_fn(|m| sum[m] + part[m]))
 }
