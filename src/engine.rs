@@ -4,13 +4,31 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::step::{Buffer, Operation};
+use crate::step::{Buffer, Element, Operation};
 
 /// The entries of one array, as the host holds them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Data {
     Real(Vec<f64>),
     Index(Vec<u32>),
+}
+
+impl Data {
+    /// Without entries.
+    pub fn empty(element: Element) -> Self {
+        match element {
+            Element::Real => Data::Real(Vec::new()),
+            Element::Index => Data::Index(Vec::new()),
+        }
+    }
+
+    /// The first entry that is no finite number.
+    pub fn first_non_finite(&self) -> Option<usize> {
+        match self {
+            Data::Real(values) => first_lost(values, |value| !value.is_finite()),
+            Data::Index(_) => None,
+        }
+    }
 }
 
 /// Lengths in time of the parts of a step.
@@ -157,10 +175,14 @@ pub trait Engine {
     /// A whole array, padding included.
     fn read(&mut self, buffer: Buffer) -> Result<Data, EngineError>;
 
-    /// The same into memory at hand.
-    fn read_into(&mut self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
-        *data = self.read(buffer)?;
-        Ok(())
+    /// The same of several, into memory at hand; the first of all their entries that is no finite number.
+    fn read_all(&mut self, arrays: &mut [(Buffer, Data)]) -> Result<Option<(Buffer, usize)>, EngineError> {
+        let mut lost = None;
+        for (buffer, data) in arrays {
+            *data = self.read(*buffer)?;
+            lost = lost.or_else(|| data.first_non_finite().map(|entry| (*buffer, entry)));
+        }
+        Ok(lost)
     }
 
     /// Runs one operation on what is stored.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::cpu::real::Real;
-use crate::engine::{Data, EngineError};
+use crate::engine::{Data, EngineError, first_lost};
 use crate::step::{Buffer, Element, Plan, Sizes};
 
 /// Every array that a plan uses, in floats of type `T`.
@@ -80,12 +80,19 @@ impl<T: Real> Fields<T> {
         }
     }
 
-    /// As [`Fields::read`], into memory at hand: that of a long array costs more than what is in it.
-    pub fn read_into(&self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
+    /// As [`Fields::read`], into memory at hand: that of a long array costs more than what is in it. The first entry that is
+    /// no finite number, found in the same pass.
+    pub fn read_into(&self, buffer: Buffer, data: &mut Data) -> Result<Option<usize>, EngineError> {
         match (buffer.element(), &mut *data) {
             (Element::Real, Data::Real(values)) => {
-                values.clear();
-                values.extend(self.real(buffer)?.iter().map(|value| value.to_f64()));
+                let stored = self.real(buffer)?;
+                values.resize(stored.len(), 0.0);
+                let mut finite = true;
+                for (value, stored) in values.iter_mut().zip(stored) {
+                    *value = stored.to_f64();
+                    finite &= value.is_finite();
+                }
+                return Ok(if finite { None } else { first_lost(values, |value| !value.is_finite()) });
             }
             (Element::Index, Data::Index(values)) => {
                 values.clear();
@@ -93,7 +100,7 @@ impl<T: Real> Fields<T> {
             }
             _ => *data = self.read(buffer)?,
         }
-        Ok(())
+        Ok(data.first_non_finite())
     }
 
     /// What the host is to see of an array.

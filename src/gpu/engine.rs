@@ -230,6 +230,12 @@ impl Engine for GpuEngine {
         self.memory.read(&self.gpu, buffer)
     }
 
+    fn read_all(&mut self, arrays: &mut [(Buffer, Data)]) -> Result<Option<(Buffer, usize)>, EngineError> {
+        self.memory.read_all(&self.gpu, arrays)?;
+        let lost = |(buffer, data): &(Buffer, Data)| data.first_non_finite().map(|entry| (*buffer, entry));
+        Ok(arrays.iter().find_map(lost))
+    }
+
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
         if !self.program.has(operation) {
             let touched = [operation.reads(&self.scene.plan), operation.writes()].concat();

@@ -123,17 +123,31 @@ impl Memory {
 
     /// A whole array.
     pub fn read(&self, gpu: &Gpu, buffer: Buffer) -> Result<Data, EngineError> {
-        let source = self.field(buffer)?;
-        let length = buffer.length(&self.sizes);
-        let width = match buffer.element() {
+        let mut arrays = [(buffer, Data::empty(buffer.element()))];
+        self.read_all(gpu, &mut arrays)?;
+        let [(_, data)] = arrays;
+        Ok(data)
+    }
+
+    /// Several in one transfer.
+    pub fn read_all(&self, gpu: &Gpu, arrays: &mut [(Buffer, Data)]) -> Result<(), EngineError> {
+        let width = |buffer: Buffer| match buffer.element() {
             Element::Index => 4,
             Element::Real => self.precision.bytes(),
         };
-        let bytes = download(gpu, &[(source, (width * length) as u64)])?;
-        Ok(match buffer.element() {
-            Element::Index => Data::Index(words(&bytes)),
-            Element::Real => Data::Real(self.reals(&bytes)),
-        })
+        let size = |buffer: Buffer| width(buffer) * buffer.length(&self.sizes);
+        let source = |(buffer, _): &(Buffer, Data)| Ok((self.field(*buffer)?, size(*buffer) as u64));
+        let bytes = download(gpu, &arrays.iter().map(source).collect::<Result<Vec<_>, EngineError>>()?)?;
+        let mut rest = &bytes[..];
+        for (buffer, data) in arrays {
+            let (own, others) = rest.split_at(size(*buffer));
+            rest = others;
+            *data = match buffer.element() {
+                Element::Index => Data::Index(words(own)),
+                Element::Real => Data::Real(self.reals(own)),
+            };
+        }
+        Ok(())
     }
 
     /// The state of the batch and the scalars.

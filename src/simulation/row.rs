@@ -136,8 +136,9 @@ impl Run<'_> {
             progress.speed = self.wall_speed.max(self.fastest(&snapshot.velocity, 0));
         }
         let mut state = std::mem::take(&mut self.spare);
-        state.renew(self.scene, self.engine, progress)?;
-        Ok(match state.non_finite(self.scene) {
+        let lost = state.renew(self.scene, self.engine)?;
+        state.progress.clone_from(progress);
+        Ok(match lost {
             Some(field) => Row::Trouble(self.lost(field)),
             None => Row::Full(row, state),
         })

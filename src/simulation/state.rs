@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::{Data, Engine, EngineError, NonFinite, first_lost};
+use crate::engine::{Data, Engine, EngineError, NonFinite};
 use crate::scene::Scene;
 use crate::step::Buffer;
 
@@ -88,19 +88,19 @@ pub struct State {
 impl State {
     /// Reads the arrays from an engine.
     pub fn read(scene: &Scene, engine: &mut dyn Engine, progress: &Progress) -> Result<Self, EngineError> {
-        let read = |buffer| engine.read(buffer).map(|data| (buffer, data));
-        let arrays = scene.plan.state().into_iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Self { progress: progress.clone(), arrays })
+        let mut state = Self { progress: progress.clone(), arrays: Vec::new() };
+        state.renew(scene, engine)?;
+        Ok(state)
     }
 
-    /// Reads them anew, into the memory of a state of the same scene.
-    pub fn renew(&mut self, scene: &Scene, engine: &mut dyn Engine, progress: &Progress) -> Result<(), EngineError> {
+    /// Reads them anew, into the memory of a state of the same scene; the first entry that is no finite number.
+    pub fn renew(&mut self, scene: &Scene, engine: &mut dyn Engine) -> Result<Option<NonFinite>, EngineError> {
         if self.arrays.is_empty() {
-            *self = Self::read(scene, engine, progress)?;
-            return Ok(());
+            let empty = |buffer: Buffer| (buffer, Data::empty(buffer.element()));
+            self.arrays = scene.plan.state().into_iter().map(empty).collect();
         }
-        self.progress.clone_from(progress);
-        self.arrays.iter_mut().try_for_each(|(buffer, data)| engine.read_into(*buffer, data))
+        let lost = engine.read_all(&mut self.arrays)?;
+        Ok(lost.map(|(buffer, entry)| placed(scene, buffer, entry)))
     }
 
     /// Writes the arrays to an engine, whose setup is done.
@@ -114,11 +114,13 @@ impl State {
 
     /// The first entry that is no finite number.
     pub fn non_finite(&self, scene: &Scene) -> Option<NonFinite> {
-        self.arrays.iter().find_map(|(buffer, data)| {
-            let Data::Real(values) = data else { return None };
-            let entry = first_lost(values, |value| !value.is_finite())?;
-            let width = (values.len() / scene.padded()).max(1);
-            Some(NonFinite { buffer: *buffer, point: (entry / width).min(scene.sizes.points - 1) })
-        })
+        let lost = |(buffer, data): &(Buffer, Data)| data.first_non_finite().map(|entry| placed(scene, *buffer, entry));
+        self.arrays.iter().find_map(lost)
     }
+}
+
+/// The point of an entry.
+fn placed(scene: &Scene, buffer: Buffer, entry: usize) -> NonFinite {
+    let width = (buffer.length(&scene.sizes) / scene.padded()).max(1);
+    NonFinite { buffer, point: (entry / width).min(scene.sizes.points - 1) }
 }

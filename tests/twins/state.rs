@@ -5,11 +5,13 @@ use std::sync::Arc;
 use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::engine::{Data, Engine};
+use stillpoint::gpu::Precision;
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Progress, State};
 use stillpoint::step::{BLOCK, Buffer, Element, Points};
 
 use crate::cases::cavity_of;
+use crate::engines::{candidate, gpu};
 use crate::scenes;
 
 /// Steps before the state is kept, and after.
@@ -107,4 +109,33 @@ fn the_state_of_a_cavity_is_what_it_should_be() {
     still.effects.pressure = None;
     still.effects.advection = None;
     assert_eq!(state(&still), [Buffer::Projected, Buffer::Reported]);
+}
+
+#[test]
+fn arrays_read_together_are_those_read_alone_and_the_first_number_that_is_none_is_found() {
+    let scene = Arc::new(Scene::build(&cavity_of(16, &[])).expect("a scene"));
+    let mut engines: Vec<Opened> =
+        vec![cpu::double(&scene).expect("an engine"), cpu::single(&scene).expect("an engine")];
+    engines.extend(candidate().map(|candidate| Box::new(gpu(&candidate, &scene, Precision::Single)) as Opened));
+    for mut engine in engines {
+        let name = format!("{:?}", engine.info());
+        for &operation in scene.plan.setup.iter().chain(&scene.plan.kick) {
+            engine.apply(operation, &scene.clock(0.01)).expect("an operation");
+        }
+        let together = [Buffer::Projected, Buffer::Neighbours(Points::Standing), Buffer::Pressure, Buffer::Reported];
+        // Whatever was there before.
+        let mut arrays = together.map(|buffer| (buffer, Data::Real(vec![f64::NAN; 3])));
+        for _ in 0..2 {
+            assert_eq!(engine.read_all(&mut arrays), Ok(None), "{name}");
+            for (buffer, data) in &arrays {
+                assert!(engine.read(*buffer).as_ref() == Ok(data), "{name}: {buffer:?}");
+            }
+        }
+        for (buffer, entry, number) in [(Buffer::Reported, 100, f64::INFINITY), (Buffer::Pressure, 77, f64::NAN)] {
+            let Ok(Data::Real(mut values)) = engine.read(buffer) else { panic!("{name}: {buffer:?}") };
+            values[entry] = number;
+            engine.write(buffer, &Data::Real(values)).expect("an array of that length");
+            assert_eq!(engine.read_all(&mut arrays), Ok(Some((buffer, entry))), "{name}");
+        }
+    }
 }

@@ -120,8 +120,13 @@ impl<T: Real> Engine for CpuEngine<T> {
         self.fields.read(buffer)
     }
 
-    fn read_into(&mut self, buffer: Buffer, data: &mut Data) -> Result<(), EngineError> {
-        self.fields.read_into(buffer, data)
+    fn read_all(&mut self, arrays: &mut [(Buffer, Data)]) -> Result<Option<(Buffer, usize)>, EngineError> {
+        let mut lost = None;
+        for (buffer, data) in arrays {
+            let entry = self.fields.read_into(*buffer, data)?;
+            lost = lost.or(entry.map(|entry| (*buffer, entry)));
+        }
+        Ok(lost)
     }
 
     fn apply(&mut self, operation: Operation, clock: &Clock) -> Result<(), EngineError> {
