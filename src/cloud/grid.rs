@@ -1,5 +1,7 @@
 //! Points sorted into square cells, on the host and in f64: for what is done once.
 
+use std::ops::Range;
+
 use glam::{DVec2, USizeVec2};
 
 /// A cell list over a rectangle, which may repeat along an axis.
@@ -52,6 +54,22 @@ impl Grid {
     fn cell_of(&self, place: DVec2) -> USizeVec2 {
         // A cast from float saturates, so that no place is out of range.
         (place / self.cell).max(DVec2::ZERO).as_usizevec2().min(self.cells - 1)
+    }
+
+    /// Columns and rows.
+    pub fn cells(&self) -> USizeVec2 {
+        self.cells
+    }
+
+    /// The points, cell by cell and row by row.
+    pub fn sorted(&self) -> &[u32] {
+        &self.points
+    }
+
+    /// Where those of some cells of a row stand among them.
+    pub fn span(&self, row: usize, columns: Range<usize>) -> Range<usize> {
+        let first = row * self.cells.x;
+        self.start[first + columns.start] as usize..self.start[first + columns.end] as usize
     }
 
     /// The points in the ring of cells at Chebyshev distance `ring` from the cell of `place`, no cell twice.

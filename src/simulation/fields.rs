@@ -33,10 +33,10 @@ impl Run<'_> {
         snapshot(scene, time, &mut |buffer| engine.read(buffer))
     }
 
-    /// The same of a state, whatever has become of the engine since.
-    pub(super) fn snapshot_of(&self, state: &State) -> Result<Snapshot, EngineError> {
+    /// The same of a state, whatever has become of the engine since; `time` is its time, s.
+    pub(super) fn snapshot_of(&self, state: &State, time: f64) -> Result<Snapshot, EngineError> {
         let of = |buffer| state.array(buffer).cloned().ok_or(EngineError::Absent(buffer));
-        snapshot(self.scene, state.progress.time, &mut |buffer| of(buffer))
+        snapshot(self.scene, time, &mut |buffer| of(buffer))
     }
 }
 

@@ -248,7 +248,7 @@ impl<'a> Run<'a> {
                         progress = self.go_back(&mut good, &trouble, step)?;
                         continue;
                     }
-                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good, good.progress.time)?);
                 }
                 Err(error) if step == 0 && progress.halvings == 0 => return Err(error),
                 Err(error) => {
@@ -256,7 +256,7 @@ impl<'a> Run<'a> {
                         SimulationError::Engine(error) => Trouble::Engine(error),
                         error => Trouble::Refused(error.to_string()),
                     };
-                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good)?);
+                    break (Stop::Trouble { trouble, step }, self.snapshot_of(&good, good.progress.time)?);
                 }
             };
             if interrupted {

@@ -1,8 +1,8 @@
 //! Points that move: what is measured of them on the way, what is watched, and how long their steps may be.
 
-use super::{Motion, Progress, Run, Trouble};
+use super::{Motion, Progress, Run, State, Trouble};
 use crate::engine::{Data, EngineError};
-use crate::motion;
+use crate::motion::{self, Watched};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 use crate::step::{Buffer, Operation, Points};
@@ -25,15 +25,16 @@ pub(super) struct Watch {
     /// Points at the start.
     points: usize,
     shifted: bool,
+    /// What is read of every state beside what is kept of it: of the points at the surface, and of those whose fit was lowered.
+    flags: Vec<(Buffer, Data)>,
     look: Option<Look>,
 }
 
 /// What is to be told with a row.
 struct Look {
-    snapshot: Snapshot,
     row: motion::Row,
-    /// It is to be kept as a frame.
-    frame: bool,
+    /// Where it is due.
+    frame: Option<Snapshot>,
 }
 
 impl Watch {
@@ -42,30 +43,35 @@ impl Watch {
         let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
         let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
         let (points, shifted) = (scene.cloud.interior, scene.plan.motion == crate::case::Motion::Shifted);
-        Self { floor, points, shifted, look: None }
+        let planned = scene.plan.buffers();
+        let flags = [Buffer::Surface, Buffer::Rung(Points::Standing)].into_iter().filter(|flag| planned.contains(flag));
+        let flags = flags.map(|flag| (flag, Data::empty(flag.element()))).collect();
+        Self { floor, points, shifted, flags, look: None }
     }
 
     /// Energy above that of all fluid on the floor, m^4/s^2.
-    fn energy(&self, row: &motion::Row) -> f64 {
-        row.kinetic_energy + row.potential_energy - self.floor
+    fn energy(&self, watched: &Watched) -> f64 {
+        watched.kinetic_energy + watched.potential_energy - self.floor
     }
 
     /// What is wrong, if something is; `start` is the energy at the start.
-    fn judge(&self, row: &motion::Row, start: f64) -> Option<Trouble> {
+    fn judge(&self, watched: &Watched, start: f64) -> Option<Trouble> {
+        let ([nearest, _, most], lost) = (watched.nearest, watched.outside.len());
         // Where every point is alone there are no two.
-        if row.nearest[0] < CLUMPED && row.nearest[2] > 0.0 {
-            return Some(Trouble::Diverged(format!("two points are {:.1e} spacings apart", row.nearest[0])));
+        if nearest < CLUMPED && most > 0.0 {
+            return Some(Trouble::Diverged(format!("two points are {nearest:.1e} spacings apart")));
         }
-        if row.lost as f64 > GONE * self.points as f64 {
-            let reason = format!("{} of {} points have left the domain", row.lost, self.points);
+        if lost as f64 > GONE * self.points as f64 {
+            let reason = format!("{lost} of {} points have left the domain", self.points);
             return Some(Trouble::Diverged(reason));
         }
-        let exceeds = self.energy(row) > (1.0 + ENERGY_GROWTH) * start;
+        let energy = self.energy(watched);
+        let exceeds = energy > (1.0 + ENERGY_GROWTH) * start;
         if !exceeds {
             return None;
         }
         // One point that is shot out of the surface makes as much; shifted points may do without in shorter steps.
-        let grown = Trouble::Grown { times: self.energy(row) / start };
+        let grown = Trouble::Grown { times: energy / start };
         Some(if self.shifted { grown } else { Trouble::Diverged(grown.to_string()) })
     }
 }
@@ -115,59 +121,42 @@ impl Run<'_> {
         }
     }
 
-    /// Measures points that move, to be told with the row; what is wrong with their motion, if something is.
-    pub(super) fn look_at_points(&mut self, progress: &mut Progress) -> Result<Option<Trouble>, EngineError> {
+    /// Judges a state of points that move, and measures it, to be told with the row; what is wrong with their motion, if
+    /// something is.
+    pub(super) fn look_at_points(
+        &mut self,
+        progress: &mut Progress,
+        state: &State,
+    ) -> Result<Option<Trouble>, EngineError> {
         if !self.scene.plan.moves() {
             return Ok(None);
         }
-        let mut area = progress.motion.map_or(0.0, |motion| motion.area);
-        let (snapshot, row) = self.moved(progress.step, progress.time, &mut area)?;
-        let begun = Motion { area, energy: self.moving.energy(&row), frames: 0 };
-        let motion = progress.motion.get_or_insert(begun);
-        let wrong = self.moving.judge(&row, motion.energy);
+        self.engine.read_all(&mut self.moving.flags)?;
+        let flags = &self.moving.flags;
+        let flag = |buffer: Buffer| flags.iter().find(|(known, _)| *known == buffer).map(|(_, data)| data);
+        let seen = motion::State::new(self.scene, |buffer| state.array(buffer).or_else(|| flag(buffer)));
+        let watched = motion::watch(self.scene, &seen);
+        let begun =
+            || Motion { area: motion::covered(self.scene, &watched), energy: self.moving.energy(&watched), frames: 0 };
+        let motion = progress.motion.get_or_insert_with(begun);
+        let wrong = self.moving.judge(&watched, motion.energy);
         if wrong.is_none() {
+            let row = motion::measure(self.scene, &seen, watched, progress.step, progress.time, motion.area);
             let due = |every: f64| row.time >= f64::from(motion.frames) * every * (1.0 - 1e-9);
             let frame = self.scene.case.output.frame_every.is_some_and(due);
-            motion.frames += u32::from(frame);
-            self.moving.look = Some(Look { snapshot, row, frame });
+            let frame = frame.then(|| self.snapshot_of(state, progress.time)).transpose()?;
+            motion.frames += u32::from(frame.is_some());
+            self.moving.look = Some(Look { row, frame });
         }
         Ok(wrong)
     }
 
     /// Tells the observer of the last look.
     pub(super) fn tell_moved(&mut self) {
-        let Some(Look { snapshot, row, frame }) = self.moving.look.take() else { return };
+        let Some(Look { row, frame }) = self.moving.look.take() else { return };
         self.observer.moved(&row);
-        if frame {
-            self.observer.frame(&snapshot);
+        if let Some(frame) = frame {
+            self.observer.frame(&frame);
         }
-    }
-
-    /// The state of points that move, and what is measured of it.
-    fn moved(&mut self, step: u64, time: f64, area: &mut f64) -> Result<(Snapshot, motion::Row), EngineError> {
-        let snapshot = self.snapshot(time)?;
-        let pressured = self.scene.sizes.pressured;
-        let mut index = |buffer: Buffer| match self.engine.read(buffer) {
-            Ok(Data::Index(values)) => Ok(values[..snapshot.position.len()].to_vec()),
-            Ok(Data::Real(_)) | Err(EngineError::Absent(_)) => Ok(Vec::new()),
-            Err(error) => Err(error),
-        };
-        let (surface, rung) = (index(Buffer::Surface)?, index(Buffer::Rung(Points::Standing))?);
-        let mut places = snapshot.position.clone();
-        places.extend_from_slice(&self.scene.cloud.position[places.len()..pressured]);
-        let pressure = match self.engine.read(Buffer::Pressure)? {
-            Data::Real(values) => values[..pressured].to_vec(),
-            Data::Index(_) => Vec::new(),
-        };
-        let state = motion::State {
-            position: &snapshot.position,
-            velocity: &snapshot.velocity,
-            pressure: &pressure,
-            pressured: &places,
-            surface: &surface,
-            rung: &rung,
-        };
-        let row = motion::measure(self.scene, &state, step, time, area);
-        Ok((snapshot, row))
     }
 }

@@ -30,8 +30,9 @@ impl Run<'_> {
         let warnings = self.warnings.clone();
         let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);
         let mut progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
-        self.look_at_points(&mut progress)?;
-        let good = State::read(self.scene, self.engine, &progress)?;
+        let mut good = State::read(self.scene, self.engine, &progress)?;
+        self.look_at_points(&mut progress, &good)?;
+        good.progress = progress;
         self.tell_moved();
         self.observer.keep(&good);
         Ok(good)
@@ -113,15 +114,21 @@ impl Run<'_> {
         if let Some(trouble) = self.watch(&row)? {
             return Ok(Row::Trouble(trouble));
         }
-        if let Some(trouble) = self.look_at_points(progress)? {
+        // All that is still to be looked at is in the state, and comes to the host once.
+        let mut state = std::mem::take(&mut self.spare);
+        let lost = state.renew(self.scene, self.engine)?;
+        if let Some(trouble) = self.look_at_points(progress, &state)? {
+            self.spare = state;
             return Ok(Row::Trouble(trouble));
         }
         let graded = self.scene.cloud.local.is_some();
-        let snapshot = (graded || !self.probes.is_empty()).then(|| self.snapshot(progress.time)).transpose()?;
+        let seen = graded || !self.probes.is_empty();
+        let snapshot = seen.then(|| self.snapshot_of(&state, progress.time)).transpose()?;
         if let Some(snapshot) = &snapshot {
             row.probes = self.probes.iter().map(|probe| probe.value(snapshot)).collect();
         }
         if interrupted {
+            self.spare = state;
             return Ok(Row::Interrupted(row));
         }
         progress.speed = self.wall_speed.max(row.max_speed);
@@ -135,13 +142,12 @@ impl Run<'_> {
             // Where the spacing varies the step goes by the motion in spacings.
             progress.speed = self.wall_speed.max(self.fastest(&snapshot.velocity, 0));
         }
-        let mut state = std::mem::take(&mut self.spare);
-        let lost = state.renew(self.scene, self.engine)?;
+        if let Some(field) = lost {
+            self.spare = state;
+            return Ok(Row::Trouble(self.lost(field)));
+        }
         state.progress.clone_from(progress);
-        Ok(match lost {
-            Some(field) => Row::Trouble(self.lost(field)),
-            None => Row::Full(row, state),
-        })
+        Ok(Row::Full(row, state))
     }
 
     fn lost(&self, field: NonFinite) -> Trouble {

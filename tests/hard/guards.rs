@@ -6,13 +6,16 @@ use std::time::Instant;
 use stillpoint::case::Case;
 use stillpoint::cpu;
 use stillpoint::engine::{Advance, Clock, Data, Engine, EngineError, EngineInfo, Measurement, SolveInfo};
+use stillpoint::motion;
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Limit, Progress, State, Stop, Trouble};
 use stillpoint::step::{Buffer, Operation};
 
 use crate::cases::cavity_of;
+use crate::columns::{MOTIONS, column};
 use crate::flow::{Flow, flow_of, flow_on};
 use crate::folders::{message, result, run, stillpoint};
+use crate::price::{flags, seen};
 use crate::spoiled::Spoiled;
 
 fn limits(changes: &[&str]) -> Vec<Limit> {
@@ -168,34 +171,49 @@ fn the_last_good_state_outlives_the_engine() {
     assert!(flow.is_finite() && flow.outcome.snapshot.velocity.iter().any(|u| u.length() > 0.1));
 }
 
-/// What a row costs beside its steps: reading the state, and looking at every number of it.
-#[test]
-fn the_guards_cost_less_than_three_hundredths_of_a_step() {
-    let case = cavity_of(48, &["cloud.arrangement=jittered"]);
-    let scene = Arc::new(Scene::build(&case).expect("a scene"));
-    let mut engine = cpu::double(&scene).expect("an engine");
-    let clock = scene.clock(0.01);
+/// Shares of a step: of what a row of diagnostics has of guards, and of points that move of all that is looked at. The least of
+/// several times: other programs only add to them.
+fn shares(scene: &Arc<Scene>) -> [f64; 2] {
+    let mut engine = cpu::double(scene).expect("an engine");
+    let clock = scene.clock(scene.case.time.step.unwrap_or(0.01));
     for &operation in scene.plan.setup.iter().chain(&scene.plan.kick) {
         engine.apply(operation, &clock).expect("an operation");
     }
-    // The least of several times: other programs only add to them.
-    let (mut steps, mut guards) = (f64::INFINITY, f64::INFINITY);
+    let mut state = State::read(scene, engine.as_mut(), &Progress::default()).expect("a state");
+    let mut flags = flags(scene);
+    let mut least = [f64::INFINITY; 3];
+    let mut timed = |which: usize, body: &mut dyn FnMut()| {
+        let started = Instant::now();
+        body();
+        least[which] = least[which].min(started.elapsed().as_secs_f64());
+    };
     for _ in 0..10 {
-        let started = Instant::now();
-        engine.advance(10, &clock).expect("steps");
-        steps = steps.min(started.elapsed().as_secs_f64() / 10.0);
-        let started = Instant::now();
-        let state = State::read(&scene, engine.as_mut(), &Progress::default()).expect("a state");
-        assert_eq!(state.non_finite(&scene), None);
-        guards = guards.min(started.elapsed().as_secs_f64());
+        timed(0, &mut || assert_eq!(engine.advance(10, &clock).expect("steps").trouble, None));
+        timed(1, &mut || assert_eq!(state.renew(scene, engine.as_mut()).expect("a state"), None));
+        timed(2, &mut || {
+            if scene.plan.moves() {
+                engine.read_all(&mut flags).expect("flags");
+                let seen = seen(scene, &state, &flags);
+                let row = motion::measure(scene, &seen, motion::watch(scene, &seen), 0, 0.0, 1.0);
+                assert!(row.nearest[0] > 0.0);
+            }
+        });
     }
-    let every = f64::from(case.output.report_every);
-    println!(
-        "guards: {:.2}% of a step a row, {:.3}% at a row every {every} steps",
-        100.0 * guards / steps,
-        100.0 * guards / steps / every
-    );
-    assert!(guards / every < 0.03 * steps, "{guards} s a row, {steps} s a step");
+    [1, 2].map(|which| 10.0 * least[which] / least[0])
+}
+
+#[test]
+fn the_guards_cost_less_than_three_hundredths_of_a_step() {
+    let still = Arc::new(Scene::build(&cavity_of(48, &["cloud.arrangement=jittered"])).expect("a scene"));
+    let every = f64::from(still.case.output.report_every);
+    let [kept, _] = shares(&still);
+    assert!(kept / every < 0.03, "{kept} of a step a row");
+    // Measures and all.
+    for (motion, changes) in MOTIONS {
+        let moving = Arc::new(Scene::build(&column(&[changes, &["time.step=0.0005"]].concat())).expect("a scene"));
+        let [kept, looked] = shares(&moving);
+        assert!((kept + looked) / 10.0 < 0.03, "{motion}: {kept} and {looked} of a step a row");
+    }
 }
 
 #[test]
