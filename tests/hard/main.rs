@@ -3,6 +3,8 @@
 //! Quick parts of each run with the other tests. The whole of them, some minutes:
 //! `cargo test --release --test hard -- --ignored --nocapture`.
 
+#[path = "../support/adapter.rs"]
+mod adapter;
 #[path = "../support/cases.rs"]
 mod cases;
 #[path = "../support/hostile.rs"]
@@ -32,6 +34,7 @@ mod table_of_points;
 mod table_of_pressure;
 mod table_of_shapes;
 mod table_of_time;
+mod table_on_gpu;
 
 /// Of the project.
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");

@@ -10,6 +10,7 @@ use stillpoint::simulation::{Stop, Trouble};
 use crate::flow::Flow;
 use crate::{
     ROOT, table_of_input, table_of_motion, table_of_points, table_of_pressure, table_of_shapes, table_of_time,
+    table_on_gpu,
 };
 
 const INTRODUCTION: &str = "\
@@ -22,6 +23,12 @@ Unless a row says otherwise: a lid-driven cavity at Re 100, 1 x 1 m, 16 spacings
 error of a flow is that of its kinetic energy, against the same flow on undisturbed regular points; energies are over that of
 the whole domain moving as fast as its walls. A promise is a bound that a fair method keeps, and no record of what this one
 did: most errors are far below it.
+
+The rows at the end are a selection on the GPU engine, in f32, by `cargo test --test hard -- --ignored a_selection`; four of them
+run with every test. They were measured on Mesa's software adapter. Right is what the CPU finds in f64. The promises are those of
+the CPU but for the solve that is allowed one iteration, where f32 has 1e-3 in place of 1e-9. The runs are shorter at Re 1e6, to 2 s,
+and of points that move, to 0.1 s and 0.05 s. f32 holds no numbers above 3e38: what grows without bound stops a run by a figure
+that is none before it does by its energy. What the guards of a run cost is in [prices.md](prices.md).
 ";
 
 /// What is promised.
@@ -160,8 +167,14 @@ fn all() -> Vec<(&'static str, Vec<Row>)> {
 
 #[test]
 fn every_hard_case_keeps_its_promise_and_stands_on_the_page() {
-    let page = fs::read_to_string(Path::new(ROOT).join("docs/hard_cases.md")).unwrap_or_default();
     let rows: Vec<Row> = all().into_iter().flat_map(|(_, rows)| rows).collect();
+    hold(&rows);
+    assert!(rows.len() >= 60, "{} rows", rows.len());
+}
+
+/// Every row keeps its promise and stands on the page.
+pub fn hold(rows: &[Row]) {
+    let page = fs::read_to_string(Path::new(ROOT).join("docs/hard_cases.md")).unwrap_or_default();
     let broken: Vec<String> = rows
         .iter()
         .filter(|row| !row.pass)
@@ -171,7 +184,6 @@ fn every_hard_case_keeps_its_promise_and_stands_on_the_page() {
     let absent: Vec<&str> =
         rows.iter().map(|row| row.case.as_str()).filter(|case| !page.contains(&format!("| {case} |"))).collect();
     assert!(absent.is_empty(), "not on docs/hard_cases.md: {absent:?}");
-    assert!(rows.len() >= 60, "{} rows", rows.len());
 }
 
 #[test]
@@ -179,7 +191,8 @@ fn every_hard_case_keeps_its_promise_and_stands_on_the_page() {
 fn the_page() {
     let mut page = INTRODUCTION.to_owned();
     let (mut count, mut kept) = (0, 0);
-    for (title, rows) in all() {
+    let on_gpu = if table_on_gpu::left_out() { Vec::new() } else { table_on_gpu::rows() };
+    for (title, rows) in all().into_iter().chain([("On a GPU, in f32", on_gpu)]).filter(|(_, rows)| !rows.is_empty()) {
         page += &format!("\n## {title}\n\n| case | promise | measured | |\n|---|---|---|---|\n");
         for Row { case, promise, measured, pass } in rows {
             let verdict = if pass { "kept" } else { "BROKEN" };

@@ -22,12 +22,12 @@ use crate::table::{Promise, Row};
 const MOST_ENERGY: f64 = 1.05;
 
 /// A run, and what was measured of its points.
-struct Moved {
+pub struct Moved {
     flow: Flow,
     rows: Vec<motion::Row>,
 }
 
-fn scene(case: &Case, cloud: Option<Cloud>) -> Result<Arc<Scene>, String> {
+pub fn scene(case: &Case, cloud: Option<Cloud>) -> Result<Arc<Scene>, String> {
     let scene = match cloud {
         Some(cloud) => Scene::with_cloud(case, cloud),
         None => Scene::build(case),
@@ -35,13 +35,13 @@ fn scene(case: &Case, cloud: Option<Cloud>) -> Result<Arc<Scene>, String> {
     scene.map(Arc::new).map_err(|error| error.to_string())
 }
 
-fn moved_on(scene: &Arc<Scene>, engine: &mut dyn Engine) -> Result<Moved, String> {
+pub fn moved_on(scene: &Arc<Scene>, engine: &mut dyn Engine) -> Result<Moved, String> {
     let mut rows = Rows::default();
     let outcome = simulate(scene, engine, &mut rows).map_err(|error| error.to_string())?;
     Ok(Moved { flow: Flow { scene: Arc::clone(scene), outcome, rows: rows.rows }, rows: rows.moved })
 }
 
-fn moved(case: &Case, cloud: Option<Cloud>, open: Open) -> Result<Moved, String> {
+pub fn moved(case: &Case, cloud: Option<Cloud>, open: Open) -> Result<Moved, String> {
     let scene = scene(case, cloud)?;
     let mut engine = open(&scene).map_err(|error| error.to_string())?;
     moved_on(&scene, engine.as_mut())
@@ -71,7 +71,7 @@ impl Moved {
 
 /// What is promised of a motion.
 #[derive(Clone, Copy, PartialEq)]
-enum Kept {
+pub enum Kept {
     /// It runs to its end, its energy never above what the watch allows, and no point leaves.
     Bounded,
     /// The same, but for so many points that leave and are counted.
@@ -80,7 +80,7 @@ enum Kept {
     OrFlagged,
 }
 
-fn kept(case: impl Into<String>, promise: Kept, run: &Result<Moved, String>) -> Row {
+pub fn kept(case: impl Into<String>, promise: Kept, run: &Result<Moved, String>) -> Row {
     let bounded = format!("energy at most {MOST_ENERGY} of the first");
     let most = if let Kept::AllBut(most) = promise { most } else { 0 };
     let words = match promise {
@@ -104,7 +104,7 @@ fn kept(case: impl Into<String>, promise: Kept, run: &Result<Moved, String>) -> 
 }
 
 /// Other promises, as of any flow.
-fn promised(case: impl Into<String>, promise: Promise, run: Result<Moved, String>) -> Row {
+pub fn promised(case: impl Into<String>, promise: Promise, run: Result<Moved, String>) -> Row {
     let finite = run.as_ref().map_or(true, Moved::is_finite);
     Row::of_flow(case, promise, &run.map(|run| run.flow), None).and(finite)
 }
@@ -121,7 +121,7 @@ fn changed(case: &Case, change: impl FnOnce(&mut Vec<DVec2>)) -> Cloud {
 }
 
 /// The point nearest to the middle of the column has another so many spacings away.
-fn doubled(case: &Case, spacings: f64) -> Cloud {
+pub fn doubled(case: &Case, spacings: f64) -> Cloud {
     changed(case, |position| {
         let off = |place: &DVec2| (*place - DVec2::new(0.04, 0.06)).length();
         let middle = position.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b))).expect("a point");

@@ -7,7 +7,7 @@ use stillpoint::cpu;
 use stillpoint::known::Known;
 
 use crate::cases::{FIT, cavity, cavity_of, problem, vortices};
-use crate::flow::{flow, flow_of};
+use crate::flow::{Open, flow, flow_of};
 use crate::table::{Promise, Row};
 
 const ACROSS: usize = 16;
@@ -37,13 +37,54 @@ fn changed(mut cloud: Cloud, drop: impl Fn(DVec2) -> bool, more: &[DVec2]) -> Cl
 }
 
 /// The middle point has another so many spacings away.
-fn doubled(spacings: f64) -> Cloud {
+pub fn doubled(spacings: f64) -> Cloud {
     let cloud = cloud();
     let place = cloud.position[middle(&cloud)] + spacings * cloud.spacing * DVec2::new(0.8, 0.6);
     changed(cloud, |_| false, &[place])
 }
 
-fn energy() -> f64 {
+/// Without the points nearer to the middle one than so many spacings.
+pub fn around(reach: f64) -> Cloud {
+    let cloud = cloud();
+    let (centre, reach) = (cloud.position[middle(&cloud)], reach * cloud.spacing);
+    changed(cloud, move |place| place != centre && (place - centre).length() < reach, &[])
+}
+
+/// So many points along either side of a square of one spacing beside the middle one.
+pub fn cluster(count: i32) -> Cloud {
+    let cloud = cloud();
+    let centre = cloud.position[middle(&cloud)];
+    let step = 0.9 * cloud.spacing / f64::from(count);
+    let more: Vec<DVec2> = (1..=count)
+        .flat_map(|i| (1..=count).map(move |j| centre + step * DVec2::new(f64::from(i), f64::from(j))))
+        .collect();
+    changed(cloud, |_| false, &more)
+}
+
+/// How far the velocities of a cavity are from those in metres, in the lid's.
+pub fn scaled(metres: f64, open: Open) -> f64 {
+    let scaled = |metres: f64| {
+        let mut case = cavity(&["cloud.arrangement=jittered", "time.end=0.5"]);
+        case.domain.width *= metres;
+        case.domain.height *= metres;
+        case.cloud.spacing *= metres;
+        case.boundaries.top.velocity[0] *= metres;
+        if let Some(viscosity) = &mut case.effects.viscosity {
+            viscosity.kinematic *= metres * metres;
+        }
+        flow(&case, None, open)
+    };
+    match (scaled(1.0), scaled(metres)) {
+        (Ok(one), Ok(other)) if other.ended() => {
+            let pairs = one.outcome.snapshot.velocity.iter().zip(&other.outcome.snapshot.velocity);
+            pairs.map(|(a, b)| (*a - *b / metres).length()).fold(0.0, f64::max)
+        }
+        _ => f64::NAN,
+    }
+}
+
+/// Of the undisturbed flow.
+pub fn energy() -> f64 {
     flow_of(&plain(&[])).expect("the undisturbed flow").energy()
 }
 
@@ -57,11 +98,6 @@ pub fn rows() -> Vec<Row> {
         Row::of_flow(case, promise, &flow(&plain(changes), Some(cloud), cpu::double), Some(right))
     };
     // Few neighbours.
-    let around = |reach: f64| {
-        let cloud = cloud();
-        let centre = cloud.position[middle(&cloud)];
-        changed(cloud, move |place| place != centre && (place - centre).length() < reach * spacing, &[])
-    };
     rows.push(on(
         "a point with 4 neighbours",
         Promise::Refused("4 neighbours; allowed: a radius that gives every point 5"),
@@ -119,15 +155,6 @@ pub fn rows() -> Vec<Row> {
     rows.push(on("two points 1e-9 spacings apart", Promise::Refused("coincide"), &[], doubled(1e-9)));
     rows.push(on("the same point twice", Promise::Refused("coincide"), &[], doubled(0.0)));
     // Clusters and holes.
-    let cluster = |count: i32| {
-        let cloud = cloud();
-        let centre = cloud.position[middle(&cloud)];
-        let step = 0.9 * spacing / f64::from(count);
-        let more: Vec<DVec2> = (1..=count)
-            .flat_map(|i| (1..=count).map(move |j| centre + step * DVec2::new(f64::from(i), f64::from(j))))
-            .collect();
-        changed(cloud, |_| false, &more)
-    };
     rows.push(on("9 points in the square of 1 spacing", Promise::Right(0.01), &[], cluster(3)));
     rows.push(on("36 points in the square of 1 spacing", Promise::Right(0.01), &[], cluster(6)));
     rows.push(on("36 points in the square of 1 spacing, collocated", Promise::Bounded(1.0), &[COLLOCATED], cluster(6)));
@@ -200,31 +227,12 @@ pub fn rows() -> Vec<Row> {
     ));
     // Units.
     for (name, metres, open, within) in [
-        ("nanometres, f64", 1e-9, cpu::double as crate::flow::Open, 1e-9),
+        ("nanometres, f64", 1e-9, cpu::double as Open, 1e-9),
         ("kilometres, f64", 1e3, cpu::double, 1e-9),
         ("micrometres, f32", 1e-6, cpu::single, 1e-3),
         ("kilometres, f32", 1e3, cpu::single, 1e-3),
     ] {
-        let scaled = |metres: f64| {
-            let mut case = cavity(&["cloud.arrangement=jittered", "time.end=0.5"]);
-            case.domain.width *= metres;
-            case.domain.height *= metres;
-            case.cloud.spacing *= metres;
-            case.boundaries.top.velocity[0] *= metres;
-            if let Some(viscosity) = &mut case.effects.viscosity {
-                viscosity.kinematic *= metres * metres;
-            }
-            flow(&case, None, open)
-        };
-        let (one, other) = (scaled(1.0), scaled(metres));
-        let error = match (&one, &other) {
-            (Ok(one), Ok(other)) if other.ended() => {
-                let pairs = one.outcome.snapshot.velocity.iter().zip(&other.outcome.snapshot.velocity);
-                pairs.map(|(a, b)| (*a - *b / metres).length()).fold(0.0, f64::max)
-            }
-            _ => f64::NAN,
-        };
-        rows.push(Row::of_error(format!("a cavity in {name}, against metres"), within, error));
+        rows.push(Row::of_error(format!("a cavity in {name}, against metres"), within, scaled(metres, open)));
     }
     // Pools that do not touch.
     let pools = || changed(cloud(), |place| (place.x - 0.5).abs() < 1.6 * spacing, &[]);

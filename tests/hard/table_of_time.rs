@@ -17,7 +17,7 @@ fn plain(changes: &[&str]) -> Case {
 }
 
 /// A step so many times the time that diffusion takes over a spacing, `l0^2 / nu`, at a viscosity of 1 m^2/s.
-fn viscous(number: f64, changes: &[&str]) -> Case {
+pub fn viscous(number: f64, changes: &[&str]) -> Case {
     let (step, end) = (number / 256.0, (40.0 * number / 256.0).min(4.0));
     let keys = [format!("time.step={step:e}"), format!("time.end={end:e}")];
     let keys: Vec<&str> = keys.iter().map(String::as_str).chain(["effects.viscosity.kinematic=1.0"]).collect();
