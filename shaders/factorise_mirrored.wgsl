@@ -1,6 +1,6 @@
 // The normal matrix of every point that moves, factorised, walls as mirrors: (2.5) of the paper.
 //
-// A point whose matrix is too weak, and one of the surface, keeps the linear fit, or none.
+// A point whose matrix is too weak, and one of the surface, keeps the linear fit; one whose neighbours stand in a line none.
 
 #import mirror
 #import normal_matrix
@@ -22,7 +22,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let f = factor_of(moments);
     var order = ORDER;
     if surface[i] != 0u || !(least_pivot(f, ORDER) > MOVING_PIVOT) {
-        order = select(0u, 1u, least_pivot(f, 1u) > MOVING_PIVOT);
+        let spread = least_pivot(f, 1u) * min(moments.m0, moments.m2);
+        order = select(0u, 1u, spread > SPREAD * max(moments.m0, moments.m2));
     }
     store_factor(i, f, order);
     rung[i] = select(select(RUNG_NEAREST, RUNG_LINEAR, order == 1u), 0u, order == ORDER);

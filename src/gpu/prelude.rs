@@ -141,6 +141,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("FITTED_DENSITY", constants.crowd),
         ("PER_AREA", density::per_area(constants.lattice)),
         ("MOVING_PIVOT", fits::PIVOT),
+        ("SPREAD", fits::SPREAD),
         ("LEAST_DETERMINANT", least::DETERMINANT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
         ("SHEET", pressure::SHEET),

@@ -1,8 +1,10 @@
 //! The ladder: points whose neighbours do not carry a full fit get less, are counted, and are never NaN.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
+use stillpoint::case::Case;
 use stillpoint::cloud::Cloud;
 use stillpoint::cpu;
 use stillpoint::scene::{Scene, SceneError};
@@ -144,4 +146,30 @@ fn widened_corners_are_counted_in_single_precision_too() {
     let outcome = simulate(&scene, cpu::single(&scene).expect("an engine").as_mut(), &mut ()).expect("a run");
     assert!(outcome.ladder[0] >= 4 && outcome.ladder[1..] == [0, 0], "{:?}", outcome.ladder);
     assert!(outcome.snapshot.velocity.iter().all(|u| u.is_finite()));
+}
+
+/// Points that move, whose neighbours and images stand in a line, have no slope across it: under a ceiling they fall.
+#[test]
+fn two_points_under_a_ceiling_fall_straight() {
+    let text = "title = 'a pair'\n\
+                domain = { width = 3.0, height = 2.5 }\n\
+                cloud = { arrangement = 'regular', spacing = 0.1, fill = { from = [0.0, 0.0], to = [1.0, 1.5] } }\n\
+                fluid.density = 2.0\n\
+                effects.gravity.acceleration = [0.0, -1.0]\n\
+                effects.pressure = {}\n\
+                effects.advection.motion = 'shifted'\n\
+                time.end = 1.0\n";
+    let case = Case::from_text(text, Path::new("pair.toml"), &[]).expect("a case");
+    let mut cloud = Scene::build(&case).expect("a scene").cloud;
+    let first = cloud.interior;
+    cloud.position.extend([DVec2::new(2.5, 2.45), DVec2::new(2.501, 2.35)]);
+    (cloud.interior, cloud.pressured) = (first + 2, first + 2);
+    let mut bench = Bench::with_cloud(&case, cloud);
+    let (dt, steps) = (0.01, 20);
+    bench.engine.advance(steps, &bench.scene.clock(dt)).expect("steps");
+    assert_eq!(bench.indexes(Buffer::Rung(Points::Standing))[first..first + 2], [Rung::NEAREST; 2]);
+    let fallen = -f64::from(steps) * dt;
+    for velocity in bench.reals(Buffer::Projected)[2 * first..2 * first + 4].chunks_exact(2) {
+        assert!(velocity[0].abs() < 1e-12 && (velocity[1] - fallen).abs() < 1e-12, "{velocity:?}");
+    }
 }

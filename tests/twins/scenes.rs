@@ -181,6 +181,7 @@ pub fn all() -> Vec<(&'static str, Arc<Scene>)> {
     for (name, changes) in COLUMNS {
         scenes.push((name, Arc::new(column(changes))));
     }
+    scenes.push(("a pair under the ceiling", Arc::new(pair())));
     // The sums over workgroups take more than one round, and more than one tile of cells.
     let many = cavity_of(144, &["cloud.arrangement=jittered", TIGHT]);
     scenes.push(("many points", Arc::new(Scene::build(&many).expect("a scene"))));
@@ -238,6 +239,14 @@ const COLUMNS: [(&str, &[&str]); 4] = [
         &["effects.advection.motion=lagrangian", "method.operators=integral", "effects.pressure.gradient=corrected"],
     ),
 ];
+
+/// The column of shifted points, and two more under the ceiling, nearly one below the other.
+fn pair() -> Scene {
+    let Scene { case, mut cloud, .. } = column(COLUMNS[0].1);
+    cloud.position.extend([DVec2::new(2.5, 2.45), DVec2::new(2.501, 2.35)]);
+    (cloud.interior, cloud.pressured) = (cloud.interior + 2, cloud.pressured + 2);
+    Scene::with_cloud(&case, cloud).expect("a scene")
+}
 
 /// A column in a tank, 10 spacings wide and 15 high, viscous, in a step between two looks.
 fn column(changes: &[&str]) -> Scene {

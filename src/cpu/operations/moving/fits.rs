@@ -12,12 +12,17 @@ use crate::cpu::operations::moments::{self, Moments};
 use crate::cpu::real::{Pack, Real};
 use crate::step::Rung;
 
-/// Least pivot of a fit of points that move, relative to the diagonal entry it came from: they come into arrangements, at the
+/// Least pivot of a full fit of points that move, relative to the diagonal entry it came from: they come into arrangements, at the
 /// tips of jets, that no cloud is laid out in.
 pub const PIVOT: f64 = 1e-3;
 
+/// Least spread of a point's neighbours across a line over that along it, for a linear fit: weighted sums of squared distances. Two
+/// points one below the other under a ceiling have images in the same line: a slope across it would be what the pressure is
+/// off along it over next to no distance, the same for both, and drive the pair along the ceiling ever faster, whatever the step.
+pub const SPREAD: f64 = 0.01;
+
 /// Forms and factorises the normal matrices; `rung` says how far each was lowered. Points of the surface, whose
-/// neighbours are all on one side, have a linear fit.
+/// neighbours are all on one side, have a linear fit; those whose neighbours stand in a line have none.
 pub fn factorise<T: Real>(around: Around<T>, weight: Weight, surface: &[u32], factor: &mut [T], rung: &mut [u32]) {
     blocks::for_each_2((factor, F), (rung, 1), &|block, factor, rung| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
@@ -26,18 +31,22 @@ pub fn factorise<T: Real>(around: Around<T>, weight: Weight, surface: &[u32], fa
                 let [x, y] = near.offset;
                 sums.add(x, y, near.counts * moments::weight(weight, near.square));
             });
-            let (entries, pivots): (_, [T::Pack; N]) = moments::factorise(sums.matrix::<F>());
+            let matrix = sums.matrix::<F>();
+            let (entries, pivots): (_, [T::Pack; N]) = moments::factorise(matrix);
             for (k, entry) in entries.into_iter().enumerate() {
                 entry.store(&mut factor[k * BLOCK + first..]);
             }
-            let least = [moments::least(&pivots), moments::least(&pivots[..moments::coefficients(1)])];
+            let [full, linear] = [moments::least(&pivots), moments::least(&pivots[..moments::coefficients(1)])];
             for lane in 0..T::Pack::LANES {
-                let passed = least.map(|least| least.lane(lane) > T::from_f64(PIVOT));
                 let free = surface[block * BLOCK + first + lane] != 0;
-                let (step, kept) = match passed {
-                    [true, _] if !free => (0, N),
-                    [_, true] => (Rung::LINEAR, moments::coefficients(1)),
-                    _ => (Rung::NEAREST, 0),
+                let (along_x, along_y) = (matrix[0].lane(lane), matrix[2].lane(lane));
+                let spread = linear.lane(lane) * along_x.min(along_y);
+                let (step, kept) = if !free && full.lane(lane) > T::from_f64(PIVOT) {
+                    (0, N)
+                } else if spread > T::from_f64(SPREAD) * along_x.max(along_y) {
+                    (Rung::LINEAR, moments::coefficients(1))
+                } else {
+                    (Rung::NEAREST, 0)
                 };
                 rung[first + lane] = step;
                 for k in moments::entries(kept)..F {
