@@ -191,6 +191,9 @@ fn summarise(
         warnings.push(format!("{} pressure solves stalled and were solved directly", outcome.fallbacks));
     }
     warnings.extend(motion::losses(history));
+    if let Some(row) = history.last().filter(|row| row.bounded > 0) {
+        warnings.push(format!("the way that the pressure pushed a point in a step was bounded {} times", row.bounded));
+    }
     Ok(Summary {
         case_path: case_path.to_owned(),
         case: scene.case.clone(),

@@ -145,6 +145,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("LEAST_DETERMINANT", least::DETERMINANT),
         ("WRONG_SIGN", pressure::WRONG_SIGN),
         ("SHEET", pressure::SHEET),
+        ("LONGEST_PUSH", pressure::LONGEST_PUSH),
         ("SURFACE_THRESHOLD", surface::THRESHOLD),
         ("SURFACE_THIN", surface::THIN),
         ("TWICE_CIRCLE", 2.0 * surface::REACH * constants.spacing / constants.radius),

@@ -154,6 +154,7 @@ pub(super) fn stages(operation: Operation, plan: &Plan) -> Stages {
         Operation::CorrectMirrored => {
             Stages::Once(vec![stage!("correct_mirrored/clamp", Points), stage!("correct_mirrored/gradient", Points)])
         }
+        Operation::BoundPush => once(stage!("bound_push", Points)),
         Operation::CorrectByLeast => {
             Stages::Once(vec![stage!("correct_by_least/clamp", Points), stage!("correct_by_least/gradient", Points)])
         }

@@ -37,6 +37,8 @@ pub struct Row {
     pub lowered: u64,
     /// Points that have left the domain.
     pub lost: u64,
+    /// Pushes of the pressure that were bounded since the beginning, of all points.
+    pub bounded: u64,
     /// Which these are, and where: not in `motion.csv`.
     pub outside: Vec<Lost>,
     /// Pressure at each sensor, in the order of their names, Pa.
@@ -64,6 +66,8 @@ pub struct State<'a> {
     /// 1 at the free surface.
     surface: &'a [u32],
     rung: &'a [u32],
+    /// In how many steps each push was bounded.
+    bounded: &'a [u32],
 }
 
 impl<'a> State<'a> {
@@ -88,6 +92,7 @@ impl<'a> State<'a> {
             pressure: &pressure[..pressured.min(pressure.len())],
             surface: flags(Buffer::Surface),
             rung: flags(Buffer::Rung(Points::Standing)),
+            bounded: flags(Buffer::Bounded),
         }
     }
 }
@@ -142,6 +147,7 @@ pub fn measure(scene: &Scene, state: &State, watched: Watched, step: u64, time: 
         surface: state.surface.iter().map(|&flag| u64::from(flag)).sum(),
         lowered: state.rung.iter().filter(|&&rung| rung != 0).count() as u64,
         lost: outside.len() as u64,
+        bounded: state.bounded.iter().map(|&steps| u64::from(steps)).sum(),
         outside,
         sensors: scene.case.output.sensors.values().map(|sensor| pressure_at(scene, state, sensor.at.into())).collect(),
     }

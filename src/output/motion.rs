@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::motion::Row;
 use crate::snapshot::Snapshot;
 
-const HEADER: &str = "step,time,kinetic_energy,potential_energy,nearest_least,nearest_mean,nearest_most,front,column,area,surface,lowered,lost";
+const HEADER: &str = "step,time,kinetic_energy,potential_energy,nearest_least,nearest_mean,nearest_most,front,column,area,surface,lowered,lost,bounded";
 
 /// Appends rows to motion.csv, lost points to lost.csv, and numbers the frames.
 #[derive(Debug)]
@@ -99,10 +99,10 @@ impl MotionWriter {
         for &value in reals.iter().chain(&row.sensors) {
             finite(&format!("motion of step {}", row.step), value)?;
         }
-        let Row { step, time, surface, lowered, lost, .. } = row;
+        let Row { step, time, surface, lowered, lost, bounded, .. } = row;
         let reals: String = reals.iter().map(|value| format!(",{value:?}")).collect();
         let sensors: String = row.sensors.iter().map(|value| format!(",{value:?}")).collect();
-        let line = format!("{step},{time:?}{reals},{surface},{lowered},{lost}{sensors}\n");
+        let line = format!("{step},{time:?}{reals},{surface},{lowered},{lost},{bounded}{sensors}\n");
         let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush());
         written.map_err(OutputError::io(&self.path))?;
         self.lost.append(row)
@@ -164,6 +164,7 @@ pub fn read(path: &Path) -> Result<Vec<Row>, OutputError> {
                 surface: cells[10] as u64,
                 lowered: cells[11] as u64,
                 lost: cells[12] as u64,
+                bounded: cells[13] as u64,
                 outside: Vec::new(),
                 sensors: cells[fixed..].to_vec(),
             })
@@ -261,6 +262,7 @@ mod tests {
                 nearest,
                 surface: 7,
                 lost: 1,
+                bounded: 2,
                 sensors: vec![-3.5],
                 ..Row::default()
             }
@@ -302,7 +304,7 @@ mod tests {
         let path = root.path().join("motion.csv");
         for (text, what) in [
             ("x\n".to_owned(), "line 1: the header is `x`"),
-            (format!("{HEADER}\n1,2\n"), "line 2: 2 cells, and the header names 13"),
+            (format!("{HEADER}\n1,2\n"), "line 2: 2 cells, and the header names 14"),
             (format!("{HEADER}\n1,x\n"), "line 2: a cell is not a number"),
         ] {
             fs::write(&path, text).unwrap();

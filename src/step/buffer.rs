@@ -137,6 +137,8 @@ pub enum Buffer {
     Surface,
     /// How far each point moves beside `dt u*`, m; interleaved.
     Displacement,
+    /// In how many steps the pressure's push on each point was bounded, since the beginning. Shifted points alone.
+    Bounded,
     /// The pressure equation over cells, that of points that move alone. Which place of the grids each point's cell has; 0 where the
     /// pressure is held.
     CoarseCell,
@@ -223,6 +225,7 @@ impl Buffer {
             Buffer::Crowding => ("crowding", None),
             Buffer::Surface => ("surface", None),
             Buffer::Displacement => ("displacement", None),
+            Buffer::Bounded => ("bounded", None),
             Buffer::CoarseCell => ("coarse_cell", None),
             Buffer::CoarseMatrix => ("coarse_matrix", None),
             Buffer::Field => ("field", None),
@@ -248,6 +251,7 @@ impl Buffer {
             | Buffer::FluxPoints
             | Buffer::FluxCount
             | Buffer::Surface
+            | Buffer::Bounded
             | Buffer::CoarseCell
             | Buffer::OpenPoints
             | Buffer::OpenCount

@@ -71,8 +71,8 @@ impl Operation {
             | ConjugateGradient | Bicgstab | DirectSolve | CorrectByFit | CorrectByAdjoint | Reflect => {
                 Effect::Pressure
             }
-            FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | CorrectByLeast
-            | CorrectByMoments => Effect::Pressure,
+            FindSurface | FitPredicted | AssembleMirrored | AssembleDensity | CorrectMirrored | BoundPush
+            | CorrectByLeast | CorrectByMoments => Effect::Pressure,
             AdvancePoints | FactoriseMirrored | FitMirrored | ShiftPoints | DisplacePoints | Collide => {
                 Effect::Advection
             }

@@ -181,6 +181,8 @@ pub enum Operation {
     CorrectByLeast,
     /// The same with means that are right for linear pressures whatever neighbours a point has.
     CorrectByMoments,
+    /// Shortens the way that the pressure moves a point where it is too long for one step, and the change of velocity with it.
+    BoundPush,
     /// Moves points apart that are closer than others, and carries the fields there.
     ShiftPoints,
     /// Moves the fluid's points by what is left of their way.
@@ -258,6 +260,7 @@ impl Operation {
             Operation::AssembleMirrored => "assemble_mirrored",
             Operation::AssembleDensity => "assemble_density",
             Operation::CorrectMirrored => "correct_mirrored",
+            Operation::BoundPush => "bound_push",
             Operation::CorrectByLeast => "correct_by_least",
             Operation::CorrectByMoments => "correct_by_moments",
             Operation::ShiftPoints => "shift_points",
@@ -388,6 +391,7 @@ impl Operation {
             Operation::CorrectMirrored => with(around, &[Factor(standing), Surface]),
             Operation::CorrectByLeast | Operation::CorrectByMoments => around,
             Operation::ShiftPoints => with(around, &[Surface, Coefficients]),
+            Operation::BoundPush => vec![],
             Operation::DisplacePoints => vec![Displacement],
             Operation::Collide => sums_of_lists,
             Operation::Average => with(means, &[Field]),
@@ -455,6 +459,7 @@ impl Operation {
             Operation::FindSurface => vec![Crowding, Surface],
             Operation::AssembleMirrored | Operation::AssembleDensity => vec![MatrixRow, Diagonal, Source, Pressure],
             Operation::Coarsen => vec![CoarseCell, CoarseMatrix],
+            Operation::BoundPush => vec![Projected, Displacement, Bounded],
             Operation::ShiftPoints => vec![Projected, Displacement],
             Operation::CorrectMirrored | Operation::CorrectByLeast | Operation::CorrectByMoments => {
                 vec![Pressure, Projected, Displacement]

@@ -222,8 +222,10 @@ pub fn of(changes: &[&str]) -> Scene {
 }
 
 /// Columns of fluid that collapse, by the motion of their points.
-const COLUMNS: [(&str, &[&str]); 4] = [
+const COLUMNS: [(&str, &[&str]); 5] = [
     ("shifted points", &["effects.advection.motion=shifted"]),
+    // At its foot the pressure moves points farther than it may.
+    ("shifted points, pushed", &["effects.advection.motion=shifted", "effects.gravity.acceleration=[0.0, -8.0]"]),
     (
         "points that move, quadratic weight",
         &[

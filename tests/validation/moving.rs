@@ -80,6 +80,8 @@ fn a_square_that_rotates_is_held_together_by_its_pressure_and_keeps_what_it_has(
     let last = rows.last().expect("rows");
     assert!(last.sensors[0] < -80.0 && last.area < 1.1, "{last:?}");
     assert!(rows.iter().all(|row| (energy(row) / energy(&rows[0]) - 1.0).abs() < 0.02 && row.lost == 0));
+    // No push is bounded where nothing splashes.
+    assert!(rows.iter().all(|row| row.bounded == 0));
     let snapshot = &outcome.snapshot;
     let begun = turning(&scene.cloud.position, &scene.initial_velocity());
     let ended = turning(&snapshot.position, &snapshot.velocity);
@@ -100,6 +102,7 @@ fn water_at_rest_keeps_its_pressure_and_its_level() {
     for row in rows.iter().filter(|row| row.time > 0.3) {
         assert!((row.sensors[0] / expected - 1.0).abs() < 0.02 && (row.area - 1.0).abs() < 0.01, "{row:?}");
     }
+    assert!(rows.iter().all(|row| row.bounded == 0));
 }
 
 #[test]

@@ -175,6 +175,7 @@ impl<T: Real> Engine for CpuEngine<T> {
             | Operation::AssembleMirrored
             | Operation::AssembleDensity
             | Operation::CorrectMirrored
+            | Operation::BoundPush
             | Operation::CorrectByLeast
             | Operation::CorrectByMoments
             | Operation::ShiftPoints

@@ -82,6 +82,14 @@ impl<T: Real> CpuEngine<T> {
                     );
                 });
             }
+            Operation::BoundPush => {
+                let mut bounded = self.fields.take_index(Buffer::Bounded)?;
+                with_taken!(self.fields, [projected = Buffer::Projected, displacement = Buffer::Displacement], {
+                    let lengths = [real(constants.spacing), dt];
+                    pressure::bound_push(lengths, interior, &mut projected, &mut displacement, &mut bounded);
+                });
+                self.fields.put_index(Buffer::Bounded, bounded);
+            }
             Operation::CorrectByLeast | Operation::CorrectByMoments => {
                 with_taken!(
                     self.fields,

@@ -135,6 +135,7 @@ fn the_scenes_of_the_tests_use_every_operation() {
         Operation::AssembleMirrored,
         Operation::AssembleDensity,
         Operation::CorrectMirrored,
+        Operation::BoundPush,
         Operation::CorrectByLeast,
         Operation::CorrectByMoments,
         Operation::ShiftPoints,

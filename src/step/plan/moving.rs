@@ -59,6 +59,9 @@ impl Plan {
             kick.extend([FactoriseMirrored, FitPredicted, AssembleMirrored]);
             kick.extend(coarse_solve(pressure.solver()));
             kick.push(CorrectMirrored);
+            if motion == Motion::Shifted {
+                kick.push(BoundPush);
+            }
             if motion == Motion::Shifted || effects.viscosity.is_some() {
                 kick.push(FitMirrored);
             }

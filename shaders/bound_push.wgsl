@@ -1,0 +1,20 @@
+// Shortens the way dt (u' - u*) that the pressure moves a point to LONGEST_PUSH spacings, and the change of velocity with it; counts
+// the steps in which it did. m, m/s.
+
+#import points
+
+@compute @workgroup_size(GROUP)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let i = index_of(group, local);
+    if i >= INTERIOR {
+        return;
+    }
+    let way = displacement[i] / SPACING;
+    let length = sqrt(dot(way, way));
+    if length > LONGEST_PUSH {
+        let less = (LONGEST_PUSH / length - real(1.0)) * displacement[i];
+        displacement[i] += less;
+        projected[i] += less / clock[CLOCK_DT];
+        bounded[i] += 1u;
+    }
+}
