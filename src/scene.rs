@@ -1,11 +1,14 @@
 //! A case made ready to run: its points, its geometry, its plan, and the numbers that every operation shares.
 
+mod aggregates;
 mod carried;
 mod drag;
 mod sides;
 
 use glam::DVec2;
 use rayon::prelude::*;
+
+pub use aggregates::Aggregates;
 
 use crate::case::{Case, PressureForm, Problem, SideKind, Solver, Splitting, Wall, Weight};
 use crate::cloud::flux::Fluxes;
@@ -35,6 +38,8 @@ pub struct Scene {
     cells: Option<Cells>,
     /// The flux out of them, where the plan fits it.
     fluxes: Option<Fluxes>,
+    /// Aggregates of points, where the plan has a coarse pressure over them.
+    aggregates: Option<Aggregates>,
     /// Groups of points out of each other's sight; 1 where all hang together.
     pub groups: usize,
     /// The points of slip sides and outlets.
@@ -159,7 +164,9 @@ impl Scene {
             open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
-            coarse: if plan.coarsens() { coarse::places(&grid) } else { 0 },
+            coarse: if plan.kick.contains(&Operation::Coarsen) { coarse::places(&grid) } else { 0 },
+            parts: 0,
+            links: 0,
         };
         let pressure = case.effects.pressure.clone().unwrap_or_default();
         let mut constants = Constants {
@@ -203,7 +210,17 @@ impl Scene {
             constants.drag_inertia = drag.inertia * drag.permeability / constants.viscosity;
         }
         let (exact, groups) = (Exact::of(case), apart.map_or(1, |(_, groups)| groups));
-        Ok(Self { case: case.clone(), cloud, plan, sizes, constants, exact, cells, fluxes, groups, open })
+        let case = case.clone();
+        let aggregates = None;
+        let mut scene = Self { case, cloud, plan, sizes, constants, exact, cells, fluxes, aggregates, groups, open };
+        if scene.plan.aggregates {
+            scene.aggregates = Aggregates::build(&scene);
+        }
+        if let Some(aggregates) = &scene.aggregates {
+            let sizes = &mut scene.sizes;
+            [sizes.coarse, sizes.parts, sizes.links] = aggregates.sizes();
+        }
+        Ok(scene)
     }
 
     /// The Voronoi cells of the pressure; `None` unless its form is conservative.
@@ -214,6 +231,11 @@ impl Scene {
     /// The flux out of the cells; `None` unless the plan fits it.
     pub fn fluxes(&self) -> Option<&Fluxes> {
         self.fluxes.as_ref()
+    }
+
+    /// The aggregates of the coarse pressure of points that stand still; `None` without it.
+    pub fn aggregates(&self) -> Option<&Aggregates> {
+        self.aggregates.as_ref()
     }
 
     /// True of a point where fluid leaves at pressure 0.
@@ -340,6 +362,7 @@ impl Scene {
         let weight = self.constants.density * self.balanced_gravity();
         let hydrostatic: Vec<f64> = cloud.position.iter().map(|place| weight.dot(*place)).collect();
         data.push((Buffer::MeanPressure, self.scalars(&hydrostatic, 0.0)));
+        data.extend(self.aggregates.iter().flat_map(|aggregates| aggregates.arrays(self.padded())));
         data.extend(drag::resistance(self));
         data.extend(carried::initial(self, &volume));
         data.extend(sides::rows(self, &self.open));

@@ -9,7 +9,7 @@ fn across(fine: u32, way: u32) -> u32 {
     return (fine + 1u + way) / 2u - fine / 2u;
 }
 
-fn sum_up(fine: Grid, coarse: Grid, local: u32) {
+fn sum_up(fine: Level, coarse: Level, local: u32) {
     for (var cell = local; cell < cells_of(coarse); cell += REDUCERS) {
         clear();
         for (var child = 0u; child < 4u; child++) {

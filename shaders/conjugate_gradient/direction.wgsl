@@ -1,4 +1,4 @@
-// Conjugate gradients, iteration 5 of 5: d = z + beta d, z = r / D and, of points that move, the coarse pressure.
+// Conjugate gradients, iteration 5 of 5: d = z + beta d, z = r / D and, where there is one, the coarse pressure.
 // Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 // algorithm 9.1.
 

@@ -25,11 +25,11 @@ fn open_phase(phase: u32) {
     let iterates = phase == PHASE_ITERATING;
     set_extent(EXTENT_CHECK, select(none, POINTS_EXTENT, checks));
     set_extent(EXTENT_CHECK_ONCE, select(none, one, checks));
-    set_extent(EXTENT_CHECK_CELLS, select(none, CELLS_EXTENT, checks));
+    set_extent(EXTENT_CHECK_CELLS, select(none, COARSE_EXTENT, checks));
     set_extent(EXTENT_CHECK_FOURS, select(none, FOURS_EXTENT, checks));
     set_extent(EXTENT_ITERATE, select(none, POINTS_EXTENT, iterates));
     set_extent(EXTENT_ITERATE_ONCE, select(none, one, iterates));
-    set_extent(EXTENT_ITERATE_CELLS, select(none, CELLS_EXTENT, iterates));
+    set_extent(EXTENT_ITERATE_CELLS, select(none, COARSE_EXTENT, iterates));
     set_extent(EXTENT_ITERATE_FOURS, select(none, FOURS_EXTENT, iterates));
 }
 

@@ -9,8 +9,9 @@ fn total(local: u32, live: bool) -> sums {
 }
 
 // The same with what the cells of a coarse pressure add.
-fn total_with_coarse(local: u32, live: bool) -> sums {
-    return total_of(local, select(0u, GROUPS + COARSE_GROUPS, live));
+fn total_with_coarse(local: u32, live: bool, pressure: bool) -> sums {
+    let end = GROUPS + select(0u, COARSE_GROUPS, pressure);
+    return total_of(local, select(0u, end, live));
 }
 
 fn total_of(local: u32, end: u32) -> sums {

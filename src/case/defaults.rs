@@ -1,7 +1,8 @@
 //! What holds where a case leaves a key open and the answer depends on another key.
 
 use super::{
-    Arrangement, Case, Cloud, Divergence, Gradient, Method, Motion, Operators, Pressure, PressureForm, Solver,
+    Arrangement, Case, Cloud, Divergence, Gradient, Method, Motion, Operators, Preconditioner, Pressure, PressureForm,
+    Solver,
 };
 
 /// Largest displacement of a jittered point along each axis, in spacings.
@@ -106,6 +107,17 @@ impl Case {
         self.effects.pressure.as_ref().and_then(|pressure| pressure.relaxation).unwrap_or(default)
     }
 
+    /// What an iterative pressure solver is preconditioned by; `None` of the direct one, and without a pressure.
+    pub fn preconditioner(&self) -> Option<Preconditioner> {
+        let pressure = self.effects.pressure.as_ref().filter(|pressure| pressure.solver() != Solver::Direct)?;
+        let summed = self.moves() || pressure.solver() == Solver::ConjugateGradient;
+        Some(pressure.preconditioner.filter(|_| summed).unwrap_or(if summed {
+            Preconditioner::Multigrid
+        } else {
+            Preconditioner::Jacobi
+        }))
+    }
+
     /// Volume change, `|div u| dt` (rms over the points), at which a pressure solve is done.
     pub fn tolerance(&self) -> f64 {
         let spacings = self.domain.width.min(self.domain.height) / self.cloud.spacing;
@@ -138,10 +150,11 @@ impl Case {
             viscosity.tolerance = Some(tolerance);
         }
         self.time.courant = Some(self.courant());
-        let tolerance = self.tolerance();
+        let (tolerance, preconditioner) = (self.tolerance(), self.preconditioner());
         if let Some(pressure) = &mut self.effects.pressure {
             pressure.tolerance = Some(tolerance);
             pressure.solver = Some(pressure.solver());
+            pressure.preconditioner = preconditioner;
             if pressure.form() == PressureForm::Conservative {
                 pressure.divergence = Some(pressure.divergence());
             }

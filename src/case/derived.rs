@@ -1,6 +1,6 @@
 //! What follows from a case as a whole.
 
-use super::{Case, Effects, Scheme, SideKind, SideName, Solution};
+use super::{Case, Effects, Preconditioner, Scheme, SideKind, SideName, Solution};
 
 impl SideName {
     pub fn word(self) -> &'static str {
@@ -20,6 +20,11 @@ impl Case {
         let Effects { viscosity, pressure, advection, gravity, drag: _, heat: _, buoyancy, tracers: _ } = &self.effects;
         let pushed = viscosity.is_some() || pressure.is_some() || gravity.is_some() || buoyancy.is_some();
         pushed || (advection.is_some() && !self.is_solved_by(Solution::Rotation))
+    }
+
+    /// True where a coarse pressure helps the solver.
+    pub fn coarsens(&self) -> bool {
+        self.preconditioner() == Some(Preconditioner::Multigrid)
     }
 
     /// True where the velocity under viscosity is solved for.

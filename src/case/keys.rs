@@ -74,6 +74,7 @@ pub(super) const ALLOWED: &[(&str, &str)] = &[
     ("effects.pressure.divergence", r#""faces" or "fit""#),
     ("effects.pressure.gradient", r#""fit" or "adjoint", with MPS "least" or "corrected""#),
     ("effects.pressure.solver", r#""conjugate_gradient", "bicgstab" or "direct""#),
+    ("effects.pressure.preconditioner", r#""jacobi" or "multigrid""#),
     ("effects.pressure.tolerance", "a number above 0 and below 1"),
     ("effects.pressure.max_iterations", "a whole number from 1 to 4294967295"),
     ("effects.pressure.relaxation", "a number from 0 to 1"),

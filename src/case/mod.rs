@@ -292,6 +292,8 @@ pub struct Pressure {
     pub gradient: Option<Gradient>,
     /// `conjugate_gradient` for the conservative form and `bicgstab` for the collocated one where absent.
     pub solver: Option<Solver>,
+    /// Of the iterative solvers: `multigrid` where absent, `jacobi` of BiCGStab on points that stand.
+    pub preconditioner: Option<Preconditioner>,
     /// Volume change left in a step, `|div u| dt` (rms over the points); the solver stops there.
     pub tolerance: Option<f64>,
     pub max_iterations: u32,
@@ -306,6 +308,7 @@ impl Default for Pressure {
             divergence: None,
             gradient: None,
             solver: None,
+            preconditioner: None,
             tolerance: None,
             max_iterations: 2000,
             relaxation: None,
@@ -352,12 +355,22 @@ pub enum Gradient {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solver {
-    /// Jacobi-preconditioned; symmetric matrices alone.
+    /// Symmetric matrices alone.
     ConjugateGradient,
-    /// Jacobi-preconditioned, with the rank-one shift.
+    /// With the rank-one shift.
     Bicgstab,
     /// Sparse factorisation, made once.
     Direct,
+}
+
+/// What an iterative solver divides a residual by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Preconditioner {
+    /// The matrix's diagonal.
+    Jacobi,
+    /// That, and a coarse pressure beside it: a cycle of aggregation multigrid.
+    Multigrid,
 }
 
 /// The material derivative: the points move with the flow and the fields are carried back.

@@ -125,8 +125,10 @@ fn bound(buffer: Buffer, sizes: &Sizes) -> usize {
         Buffer::FaceCount => sizes.face_capacity + 1,
         Buffer::FluxCount => sizes.flux_capacity + 1,
         Buffer::OpenCount => sizes.open_capacity + 1,
-        Buffer::CoarseCell => sizes.coarse,
+        Buffer::CoarseCell | Buffer::AggregateParent | Buffer::AggregateNeighbours => sizes.coarse,
         Buffer::CellStart(_) => sizes.points + 1,
+        Buffer::AggregateStart => sizes.parts + 1,
+        Buffer::AggregateParts => sizes.points.max(sizes.coarse),
         _ => u32::MAX as usize + 1,
     }
 }

@@ -228,7 +228,7 @@ impl Batch<'_> {
                 Extent::Cells => shape.cells,
                 Extent::Iterate if resumed => shape.points,
                 Extent::IterateOnce if resumed => 1,
-                Extent::IterateCells if resumed => shape.cells,
+                Extent::IterateCells if resumed => shape.coarse,
                 Extent::IterateFours if resumed => shape.fours,
                 _ => 0,
             };

@@ -1,58 +1,74 @@
-//! The grids of the coarse pressure in WGSL: one after the other written out, each with numbers that are constants.
+//! The levels of the coarse pressure in WGSL: one after the other written out, each with numbers that are constants.
 
 use std::fmt::Write;
 
 use crate::scene::Scene;
-use crate::step::coarse::{Level, levels};
+use crate::step::aggregates;
+use crate::step::coarse::levels;
 
 /// The text behind `#import name`, where it is one of these.
 pub(super) fn library(name: &str, scene: &Scene) -> Option<String> {
-    let levels = levels(&scene.constants.grid);
+    let levels = written(scene);
     match name {
-        "coarse_grids" => Some(ends(&levels)),
+        "coarse_grids" => {
+            let structure = match scene.aggregates() {
+                Some(_) => include_str!("../../shaders/library/aggregates/levels.wgsl"),
+                None => include_str!("../../shaders/library/coarse/grids.wgsl"),
+            };
+            Some(format!("{structure}{}", ends(&levels)))
+        }
         "written/coarse_matrix" => Some(matrix(&levels)),
         "written/coarse_cycle" => Some(cycle(&levels)),
         _ => None,
     }
 }
 
-/// A grid as the constants of a call.
-fn grid(level: Level) -> String {
-    format!("Grid({}u, {}u, {}u)", level.first, level.columns, level.rows)
+/// The levels as constants of a call, finest first.
+fn written(scene: &Scene) -> Vec<String> {
+    let text = |numbers: &[usize]| {
+        let numbers = numbers.iter().map(|number| format!("{number}u")).collect::<Vec<_>>();
+        format!("Level({})", numbers.join(", "))
+    };
+    match scene.aggregates() {
+        Some(aggregates) => {
+            let numbers = |level: &aggregates::Level| [level.first, level.count, level.slots, level.entries];
+            aggregates.levels.iter().map(|level| text(&numbers(level))).collect()
+        }
+        None => {
+            levels(&scene.constants.grid).iter().map(|level| text(&[level.first, level.columns, level.rows])).collect()
+        }
+    }
 }
 
-/// The two finest grids as constants; the second is empty where the first is a single cell.
-fn ends(levels: &[Level]) -> String {
-    let none = Level { first: 0, columns: 0, rows: 0 };
-    let second = levels.get(1).copied().unwrap_or(none);
-    let structure = include_str!("../../shaders/library/coarse/grids.wgsl");
-    format!("{structure}const FINEST = {};\nconst SECOND = {};\n", grid(levels[0]), grid(second))
+/// The two finest levels as constants; the second is empty where there is one alone.
+fn ends(levels: &[String]) -> String {
+    let second = levels.get(1).map_or("Level()", String::as_str);
+    format!("const FINEST = {};\nconst SECOND = {second};\n", levels[0])
 }
 
 /// The rows of every grid above the finest, each from those of the one below.
-fn matrix(levels: &[Level]) -> String {
+fn matrix(levels: &[String]) -> String {
     let mut text = String::from("fn sum_up_all(local: u32) {\n");
     for pair in levels.windows(2) {
-        let (fine, coarse) = (grid(pair[0]), grid(pair[1]));
+        let [fine, coarse] = pair else { continue };
         line(&mut text, format_args!("    sum_up({fine}, {coarse}, local);\n    storageBarrier();"));
     }
     text.push_str("}\n");
     text
 }
 
-/// From the second grid down to the last and up again.
-fn cycle(levels: &[Level]) -> String {
+/// From the second level down to the last and up again.
+fn cycle(levels: &[String]) -> String {
     let mut text = String::from("fn go_through_all(local: u32) {\n");
     for pair in levels.windows(2).skip(1) {
-        let (fine, coarse) = (grid(pair[0]), grid(pair[1]));
+        let [fine, coarse] = pair else { continue };
         line(&mut text, format_args!("    go_down({fine}, {coarse}, local);\n    storageBarrier();"));
     }
-    for (number, &level) in levels.iter().enumerate().skip(1).rev() {
-        if let Some(&coarse) = levels.get(number + 1) {
-            let (fine, coarse) = (grid(level), grid(coarse));
-            line(&mut text, format_args!("    bring_up({fine}, {coarse}, local);\n    storageBarrier();"));
+    for (number, level) in levels.iter().enumerate().skip(1).rev() {
+        if let Some(coarse) = levels.get(number + 1) {
+            line(&mut text, format_args!("    bring_up({level}, {coarse}, local);\n    storageBarrier();"));
         }
-        line(&mut text, format_args!("    smooth_out({}, local);\n    storageBarrier();", grid(level)));
+        line(&mut text, format_args!("    smooth_out({level}, local);\n    storageBarrier();"));
     }
     text.push_str("}\n");
     text

@@ -127,7 +127,7 @@ numbered! {
     Extent {
         Points = "EXTENT_POINTS",
         Cells = "EXTENT_CELLS",
-        /// Points, one workgroup, cells and cells of four cells, while a solve recomputes its residual.
+        /// Points, one workgroup, and the two finest levels of a coarse pressure, while a solve recomputes its residual.
         Check = "EXTENT_CHECK",
         CheckOnce = "EXTENT_CHECK_ONCE",
         CheckCells = "EXTENT_CHECK_CELLS",

@@ -38,7 +38,7 @@ impl Memory {
                 Own::Dispatches => (12 * Extent::NAMES.len(), BufferUsages::INDIRECT),
                 Own::Clock => (real * Time::NAMES.len(), BufferUsages::empty()),
                 Own::Scalars => (real * Scalar::NAMES.len(), BufferUsages::empty()),
-                Own::Partials => (4 * real * (groups + Shape::coarse(scene) as usize), BufferUsages::empty()),
+                Own::Partials => (4 * real * (groups + shape.coarse as usize), BufferUsages::empty()),
                 Own::CoarseRight | Own::CoarseValue | Own::CoarseSmoothed => {
                     (real * scene.sizes.coarse.max(1), BufferUsages::empty())
                 }

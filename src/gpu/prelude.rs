@@ -57,27 +57,28 @@ impl Precision {
     }
 }
 
-/// Workgroups over points, over cells, and over cells of four cells where there is a coarse pressure.
+/// Workgroups over points, over cells, and over the two finest levels of a coarse pressure where there is one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
     pub points: u32,
     pub cells: u32,
+    pub coarse: u32,
     pub fours: u32,
 }
 
 impl Shape {
     pub fn new(scene: &Scene) -> Self {
         let groups = |count: usize| count.div_ceil(GROUP as usize) as u32;
-        let fours = match levels(&scene.constants.grid).get(1) {
-            Some(level) if scene.plan.coarsens() => groups(level.columns * level.rows),
-            _ => 0,
+        let (points, cells) = (groups(scene.padded()), groups(scene.sizes.cells + 1));
+        let [coarse, fours] = match scene.aggregates() {
+            Some(aggregates) => [0, 1].map(|k| aggregates.levels.get(k).map_or(0, |level| groups(level.count))),
+            None if scene.plan.coarsens() => {
+                let fours = levels(&scene.constants.grid).get(1).map_or(0, |level| groups(level.columns * level.rows));
+                [cells, fours]
+            }
+            None => [0, 0],
         };
-        Self { points: groups(scene.padded()), cells: groups(scene.sizes.cells + 1), fours }
-    }
-
-    /// Workgroups whose sums stand behind those over the points.
-    pub fn coarse(scene: &Scene) -> u32 {
-        if scene.plan.coarsens() { Self::new(scene).cells } else { 0 }
+        Self { points, cells, coarse, fours }
     }
 
     /// The same along x and y.
@@ -130,7 +131,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("REDUCERS", REDUCERS as usize),
         ("REDUCER_ROWS", REDUCER_ROWS as usize),
         ("MOST_GROUPS", MOST_GROUPS as usize),
-        ("COARSE_GROUPS", Shape::coarse(scene) as usize),
+        ("COARSE_GROUPS", shape.coarse as usize),
         ("PLACES", sizes.coarse),
         ("NO_POINT", NO_POINT as usize),
     ];
@@ -195,9 +196,8 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
     line(&mut text, format_args!("const SINGULAR: bool = {};", constants.singular));
     let [x, y] = constants.grid.periodic;
     line(&mut text, format_args!("const PERIODIC = vec2<bool>({x}, {y});"));
-    for (name, groups) in
-        [("POINTS_EXTENT", shape.points), ("CELLS_EXTENT", shape.cells), ("FOURS_EXTENT", shape.fours)]
-    {
+    let extents = [("POINTS_EXTENT", shape.points), ("COARSE_EXTENT", shape.coarse), ("FOURS_EXTENT", shape.fours)];
+    for (name, groups) in extents {
         let [x, y] = Shape::extent(groups);
         line(&mut text, format_args!("const {name} = vec2<u32>({x}u, {y}u);"));
     }

@@ -253,6 +253,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
     }
     let conservative = scene.plan.form == Some(PressureForm::Conservative);
     let integral = scene.plan.form == Some(PressureForm::Integral);
+    let aggregates = scene.plan.aggregates;
     Some(match name {
         "points" => text!("points"),
         "cells" => text!("cells"),
@@ -261,10 +262,13 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "conjugate_gradient_judge" => text!("conjugate_gradient/judge"),
         "clamp" => text!("clamp"),
         "coarse_store" => text!("coarse/store"),
+        "coarse_cycle" if aggregates => text!("aggregates/cycle"),
         "coarse_cycle" => text!("coarse/cycle"),
+        "coarse_restrict" if aggregates => text!("aggregates/restrict"),
         "coarse_restrict" => text!("coarse/restrict"),
         "coarse_down" => text!("coarse/down"),
         "coarse_coarser" => text!("coarse/coarser"),
+        "coarse_up" if aggregates => text!("aggregates/up"),
         "coarse_up" => text!("coarse/up"),
         "coarse_at" if scene.plan.coarsens() => text!("coarse/at_points"),
         "coarse_at" => text!("coarse/absent"),

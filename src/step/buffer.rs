@@ -139,11 +139,21 @@ pub enum Buffer {
     Displacement,
     /// In how many steps the pressure's push on each point was bounded, since the beginning. Shifted points alone.
     Bounded,
-    /// The pressure equation over cells, that of points that move alone. Which place of the grids each point's cell has; 0 where the
-    /// pressure is held.
+    /// The pressure equation over cells, or over aggregates of points that stand still. Which place each point's cell has; 0 where
+    /// the pressure is held.
     CoarseCell,
-    /// Its rows, number by number: of the nine cells around, then what a smoothing step multiplies with; ten times all places.
+    /// Rows of that over cells, number by number: of the nine cells around, then what a smoothing step multiplies with; ten times all places.
     CoarseMatrix,
+    /// Where the parts of each aggregate begin in `AggregateParts`; one more entry than places.
+    AggregateStart,
+    /// The parts: points, or places of smaller aggregates.
+    AggregateParts,
+    /// The place of the aggregate that each is part of; 0 of the largest.
+    AggregateParent,
+    /// Places of the aggregates that each is linked to, level by level, slot by slot.
+    AggregateNeighbours,
+    /// The matrix over aggregates, no unit: the diagonal at all places, what a smoothing step multiplies with, then these links.
+    AggregateMatrix,
     /// A known field, no unit.
     Field,
     /// Its mean over neighbours, no unit; its gradient, 1/m, interleaved; its Laplacian, 1/m^2.
@@ -228,6 +238,11 @@ impl Buffer {
             Buffer::Bounded => ("bounded", None),
             Buffer::CoarseCell => ("coarse_cell", None),
             Buffer::CoarseMatrix => ("coarse_matrix", None),
+            Buffer::AggregateStart => ("aggregate_start", None),
+            Buffer::AggregateParts => ("aggregate_parts", None),
+            Buffer::AggregateParent => ("aggregate_parent", None),
+            Buffer::AggregateNeighbours => ("aggregate_neighbours", None),
+            Buffer::AggregateMatrix => ("aggregate_matrix", None),
             Buffer::Field => ("field", None),
             Buffer::FieldAverage => ("field_average", None),
             Buffer::FieldGradient => ("field_gradient", None),
@@ -253,6 +268,10 @@ impl Buffer {
             | Buffer::Surface
             | Buffer::Bounded
             | Buffer::CoarseCell
+            | Buffer::AggregateStart
+            | Buffer::AggregateParts
+            | Buffer::AggregateParent
+            | Buffer::AggregateNeighbours
             | Buffer::OpenPoints
             | Buffer::OpenCount
             | Buffer::Outlet
@@ -264,7 +283,13 @@ impl Buffer {
     /// Numbers a point; `None` for what has one a cell, or more.
     pub fn per_point(self, sizes: &Sizes) -> Option<usize> {
         Some(match self {
-            Buffer::CellStart(_) | Buffer::CoarseMatrix => return None,
+            Buffer::CellStart(_)
+            | Buffer::CoarseMatrix
+            | Buffer::AggregateStart
+            | Buffer::AggregateParts
+            | Buffer::AggregateParent
+            | Buffer::AggregateNeighbours
+            | Buffer::AggregateMatrix => return None,
             Buffer::Position(_)
             | Buffer::Normal
             | Buffer::Velocity
@@ -294,12 +319,18 @@ impl Buffer {
         })
     }
 
-    /// Entries of the array: whole blocks of points, one a cell and one more, or so many a place of the coarse grids.
+    /// Entries of the array: whole blocks of points, one a cell and one more, or so many a place of the coarse pressure and a link
+    /// of its aggregates.
     pub fn length(self, sizes: &Sizes) -> usize {
-        match self.per_point(sizes) {
-            Some(count) => sizes.points.div_ceil(BLOCK) * BLOCK * count,
-            None if self == Buffer::CoarseMatrix => ENTRIES * sizes.coarse,
-            None => sizes.cells + 1,
+        match (self.per_point(sizes), self) {
+            (Some(count), _) => sizes.points.div_ceil(BLOCK) * BLOCK * count,
+            (None, Buffer::CoarseMatrix) => ENTRIES * sizes.coarse,
+            (None, Buffer::AggregateStart) => sizes.coarse + 1,
+            (None, Buffer::AggregateParts) => sizes.parts,
+            (None, Buffer::AggregateParent) => sizes.coarse,
+            (None, Buffer::AggregateNeighbours) => sizes.links,
+            (None, Buffer::AggregateMatrix) => 2 * sizes.coarse + sizes.links,
+            (None, _) => sizes.cells + 1,
         }
     }
 }

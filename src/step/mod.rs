@@ -32,6 +32,7 @@
 //!
 //! The paper's own step (`splitting = "projection"`) is the same cycle with whole kicks and no reflection.
 
+pub mod aggregates;
 mod buffer;
 mod carried;
 pub mod coarse;

@@ -136,9 +136,9 @@ pub enum Operation {
     CollocatedSource,
     /// The pressure matrix of points that move, summed up over cells, then over four of them at a time.
     Coarsen,
-    /// Solves the conservative equation: Jacobi-preconditioned conjugate gradients.
+    /// Solves a symmetric equation: conjugate gradients, preconditioned by the diagonal and, where there is one, a coarse pressure.
     ConjugateGradient,
-    /// Solves either equation: Jacobi-preconditioned BiCGStab with the rank-one shift.
+    /// Solves either equation: BiCGStab with the rank-one shift, preconditioned in the same way.
     Bicgstab,
     /// Solves either equation with a sparse factorisation made once, on the host.
     DirectSolve,
@@ -366,6 +366,11 @@ impl Operation {
             Operation::AddWallFlux => vec![WallFlux],
             Operation::CollocatedSource => with(sums(GradientRow), &[Normal, RowScale, Velocity, Projected]),
             Operation::Coarsen => with(plan.matrix(), &[CellStart(standing), CellPoints(standing), Surface]),
+            Operation::ConjugateGradient if plan.aggregates => {
+                let parts = [CoarseCell, AggregateStart, AggregateParts, AggregateParent];
+                let rows = [AggregateNeighbours, AggregateMatrix];
+                with(with(with(plan.matrix(), &[Diagonal, Volume, Source]), &parts), &rows)
+            }
             Operation::ConjugateGradient | Operation::Bicgstab if plan.coarsens() => {
                 let coarse = [CellStart(standing), CellPoints(standing), CoarseCell, CoarseMatrix];
                 with(with(plan.matrix(), &[Diagonal, Volume, Source]), &coarse)

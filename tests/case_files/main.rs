@@ -7,7 +7,7 @@ mod obstacles;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use stillpoint::case::{Case, Gradient, Problem, Solver};
+use stillpoint::case::{Case, Gradient, Preconditioner, Problem, Solver};
 
 /// A right case; each test below spoils or changes one thing of it.
 const GOOD: &str = r#"title = "Cavity"
@@ -84,6 +84,7 @@ fn the_good_case_is_good_and_completed() {
     assert_eq!((case.cloud.minimum_distance, case.cloud.seed, case.cloud.jitter), (Some(0.7), Some(1), None));
     let pressure = case.effects.pressure.as_ref().expect("a pressure");
     assert_eq!((pressure.solver, pressure.gradient), (Some(Solver::ConjugateGradient), Some(Gradient::Fit)));
+    assert_eq!(pressure.preconditioner, Some(Preconditioner::Multigrid));
     assert_eq!(case.point_estimate(), 11.0 * 16.0);
     let json = serde_json::to_string(&case).expect("a case as JSON");
     assert_eq!(serde_json::from_str::<Case>(&json).expect("a case from JSON"), case);
@@ -98,6 +99,9 @@ fn defaults_that_depend_on_other_keys_are_filled_in() {
     let collocated = load(GOOD, &["effects.pressure.form=collocated"]).expect("a collocated case");
     let pressure = collocated.effects.pressure.as_ref().expect("a pressure");
     assert_eq!((pressure.solver, pressure.gradient), (Some(Solver::Bicgstab), None));
+    assert_eq!(pressure.preconditioner, Some(Preconditioner::Jacobi));
+    let direct = load(GOOD, &["effects.pressure.solver=direct"]).expect("a case solved directly");
+    assert_eq!(direct.effects.pressure.expect("a pressure").preconditioner, None);
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod rows;
 #[path = "../support/spoiled.rs"]
 mod spoiled;
 
+mod aggregates;
 mod carried;
 mod carried_around;
 mod clouds;

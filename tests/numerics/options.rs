@@ -66,7 +66,12 @@ fn every_option_changes_the_answer() {
 #[test]
 fn options_that_choose_the_way_and_not_the_answer_leave_it() {
     let base = run(&[]);
-    for changed in ["effects.pressure.solver=bicgstab", "effects.pressure.solver=direct", "output.report_every=3"] {
+    for changed in [
+        "effects.pressure.solver=bicgstab",
+        "effects.pressure.solver=direct",
+        "effects.pressure.preconditioner=jacobi",
+        "output.report_every=3",
+    ] {
         let [velocity, pressure] = difference(&run(&[changed]), &base);
         assert!(velocity < 1e-6 && pressure < 1e-5, "{changed}: {velocity:e} m/s, {pressure:e} Pa");
     }

@@ -11,7 +11,7 @@ use stillpoint::scene::Scene;
 use crate::engines::{candidate, gpu};
 
 /// The engine's own arrays: tables and scalars of a few hundred bytes; sums of each 64 points, 24 bytes; 4 bytes a cell of
-/// the search, of which there are fewer than points. Bytes, and bytes a point.
+/// the search, of which there are fewer than points. Bytes, and bytes a point; three numbers a place of the coarse pressure beside.
 const OWN: (u64, u64) = (1024, 4);
 
 #[test]
@@ -23,7 +23,8 @@ fn the_shipped_cavities_take_what_their_plan_says_and_a_kilobyte_a_point_at_most
         let points = scene.sizes.points as u64;
         let held = gpu(&candidate, &scene, Precision::Single).allocated_bytes();
         let planned = scene.plan.total_bytes(&scene.sizes, Precision::Single.bytes()) as u64;
-        let own = OWN.0 + OWN.1 * points;
+        let coarse = (3 * Precision::Single.bytes() * scene.sizes.coarse) as u64;
+        let own = OWN.0 + OWN.1 * points + coarse;
         assert!((planned + 1..=planned + own).contains(&held), "{name}: {held} bytes, planned {planned}, own {own}");
         assert!(held <= 1024 * points, "{name}: {held} bytes for {points} points");
     }

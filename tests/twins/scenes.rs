@@ -24,8 +24,14 @@ const GRAVITY: &str = "effects.gravity.acceleration=[0.3, -1.0]";
 const CHANGES: [(&str, &[&str]); 12] = [
     ("regular, conservative, departure, reflection, fit, cg", &[]),
     (
-        "jittered, adjoint, cg, no weight",
-        &["cloud.arrangement=jittered", "cloud.jitter=0.4", "effects.pressure.gradient=adjoint", "method.weight=none"],
+        "jittered, adjoint, cg by the diagonal, no weight",
+        &[
+            "cloud.arrangement=jittered",
+            "cloud.jitter=0.4",
+            "effects.pressure.gradient=adjoint",
+            "effects.pressure.preconditioner=jacobi",
+            "method.weight=none",
+        ],
     ),
     (
         "random, projection, bicgstab, quadratic weight",
@@ -227,9 +233,10 @@ const COLUMNS: [(&str, &[&str]); 5] = [
     // At its foot the pressure moves points farther than it may.
     ("shifted points, pushed", &["effects.advection.motion=shifted", "effects.gravity.acceleration=[0.0, -8.0]"]),
     (
-        "points that move, quadratic weight",
+        "points that move, quadratic weight, bicgstab by the diagonal",
         &[
             "effects.advection.motion=lagrangian",
+            "effects.pressure.preconditioner=jacobi",
             "method.weight=quadratic",
             "cloud.arrangement=jittered",
             "cloud.jitter=0.2",
@@ -237,8 +244,13 @@ const COLUMNS: [(&str, &[&str]); 5] = [
     ),
     ("points that move, MPS", &["effects.advection.motion=lagrangian", "method.operators=integral"]),
     (
-        "points that move, MPS, corrected gradient",
-        &["effects.advection.motion=lagrangian", "method.operators=integral", "effects.pressure.gradient=corrected"],
+        "points that move, MPS, corrected gradient, cg by the diagonal",
+        &[
+            "effects.advection.motion=lagrangian",
+            "method.operators=integral",
+            "effects.pressure.gradient=corrected",
+            "effects.pressure.preconditioner=jacobi",
+        ],
     ),
 ];
 

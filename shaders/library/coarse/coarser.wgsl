@@ -1,30 +1,29 @@
-// Down through the grids above the finest and up again, by one workgroup.
+// Down through the levels above the finest and up again, by one workgroup.
 
 #import coarse_cycle
 #import written/coarse_cycle
 
-fn go_down(fine: Grid, coarse: Grid, local: u32) {
+fn go_down(fine: Level, coarse: Level, local: u32) {
     for (var cell = local; cell < cells_of(coarse); cell += REDUCERS) {
         begin(place_of(coarse, cell), left_below(fine, coarse, cell));
     }
 }
 
-fn bring_up(fine: Grid, coarse: Grid, local: u32) {
+fn bring_up(fine: Level, coarse: Level, local: u32) {
     for (var cell = local; cell < cells_of(fine); cell += REDUCERS) {
         let place = place_of(fine, cell);
         if smoothing(place) != real(0.0) {
-            let parent = parent_in(coarse, cell % fine.columns + 1u, cell / fine.columns + 1u);
-            coarse_value[place] += coarse_smoothed[parent];
+            coarse_value[place] += coarse_smoothed[parent_of(fine, coarse, cell)];
         }
     }
 }
 
-fn smooth_out(grid: Grid, local: u32) {
+fn smooth_out(grid: Level, local: u32) {
     for (var cell = local; cell < cells_of(grid); cell += REDUCERS) {
         let place = place_of(grid, cell);
         let factor = smoothing(place);
         if factor != real(0.0) {
-            coarse_smoothed[place] = coarse_value[place] + factor * left_at(place, grid.columns + 2u);
+            coarse_smoothed[place] = coarse_value[place] + factor * left_on(grid, place);
         }
     }
 }

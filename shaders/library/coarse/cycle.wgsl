@@ -38,8 +38,16 @@ fn left_at(place: u32, stride: u32) -> real {
     return left;
 }
 
+fn left_on(grid: Level, place: u32) -> real {
+    return left_at(place, grid.columns + 2u);
+}
+
+fn parent_of(fine: Level, coarse: Level, cell: u32) -> u32 {
+    return parent_in(coarse, cell % fine.columns + 1u, cell / fine.columns + 1u);
+}
+
 // What the four cells of a coarse one leave.
-fn left_below(fine: Grid, coarse: Grid, cell: u32) -> real {
+fn left_below(fine: Level, coarse: Level, cell: u32) -> real {
     let stride = fine.columns + 2u;
     var sum = real(0.0);
     for (var child = 0u; child < 4u; child++) {

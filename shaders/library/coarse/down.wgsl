@@ -1,4 +1,4 @@
-// From the finest grid to the next.
+// From the finest level to the next.
 
 #import points
 #import coarse_cycle

@@ -6,7 +6,7 @@
 @compute @workgroup_size(REDUCERS)
 fn main(@builtin(local_invocation_index) local: u32) {
     let live = in_phase(PHASE_ITERATING);
-    let sum = total_with_coarse(local, live);
+    let sum = total_with_coarse(local, live, equation() == EQUATION_PRESSURE);
     if local == 0u && live {
         scalars[BETA] = sum.x / scalars[RZ];
         scalars[RZ] = sum.x;

@@ -2,8 +2,8 @@
 
 use super::super::fault::Fault;
 use super::super::{
-    Boundaries, Case, Divergence, Drag, Effects, Gradient, Operators, Pressure, PressureForm, Problem, Remap, Scheme,
-    Solver, Time,
+    Boundaries, Case, Divergence, Drag, Effects, Gradient, Operators, Preconditioner, Pressure, PressureForm, Problem,
+    Remap, Scheme, Solver, Time,
 };
 use super::require;
 
@@ -40,6 +40,7 @@ pub(super) fn check(case: &Case) -> Result<(), Fault> {
     }
     if let Some(pressure) = &case.effects.pressure {
         check_pressure(pressure)?;
+        check_preconditioner(case, pressure)?;
         if pressure.form() == PressureForm::Collocated {
             second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
         }
@@ -126,7 +127,8 @@ fn check_problem(case: &Case) -> Result<(), Fault> {
     if pressure.form() == PressureForm::Collocated {
         second_derivatives(case, "effects.pressure.form = \"collocated\"")?;
     }
-    check_pressure(pressure)
+    check_pressure(pressure)?;
+    check_preconditioner(case, pressure)
 }
 
 /// A fit of order 1 has none.
@@ -162,6 +164,20 @@ fn check_pressure(pressure: &Pressure) -> Result<(), Fault> {
         return Err(Fault::reason("effects.pressure.gradient", reason));
     }
     Ok(())
+}
+
+/// Points that move have a coarse pressure with either solver, those that stand with conjugate gradients.
+fn check_preconditioner(case: &Case, pressure: &Pressure) -> Result<(), Fault> {
+    let reason = match (pressure.preconditioner, pressure.solver()) {
+        (Some(_), Solver::Direct) => {
+            "belongs to an iterative solver, and effects.pressure.solver is \"direct\"; leave it out"
+        }
+        (Some(Preconditioner::Multigrid), Solver::Bicgstab) if !case.moves() => {
+            "must be \"jacobi\" with effects.pressure.solver = \"bicgstab\" on points that stand still"
+        }
+        _ => return Ok(()),
+    };
+    Err(Fault::reason("effects.pressure.preconditioner", reason))
 }
 
 /// The adjoint gradient is that of the plain flux, and those of MPS are its own.

@@ -49,8 +49,9 @@ pub struct CpuEngine<T: Real> {
     domain: Domain<T>,
     /// Reciprocals of `Volume`: the solvers' loops divide by it in every iteration.
     per_volume: Vec<T>,
-    /// The grids of a coarse pressure and what is computed on them; empty without one.
+    /// The grids of a coarse pressure over cells; empty without one.
     levels: Vec<Level>,
+    /// What is computed of a coarse pressure.
     coarse: coarse::Vectors<T>,
     direct: Option<DirectSolver>,
     solve: SolveInfo,
@@ -68,7 +69,8 @@ impl<T: Real> CpuEngine<T> {
         }
         let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
-        let levels = if scene.plan.coarsens() { levels(&scene.constants.grid) } else { Vec::new() };
+        let coarsens = scene.plan.kick.contains(&Operation::Coarsen);
+        let levels = if coarsens { levels(&scene.constants.grid) } else { Vec::new() };
         let coarse = coarse::Vectors::new(scene.sizes.coarse);
         let (solve, viscous_solve, spent) = (SolveInfo::default(), SolveInfo::default(), Spent::default());
         let direct = None;

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::{CpuEngine, with_taken};
 use crate::case::PressureForm;
-use crate::cpu::operations::coarse::{self, Coarse, Grids, Nothing};
+use crate::cpu::operations::aggregates::Aggregated;
+use crate::cpu::operations::coarse::{self, Coarse, Gridded, Grids, Nothing};
 use crate::cpu::operations::conservative::{self, Conservative};
 use crate::cpu::operations::moving::density::{self, Symmetric};
 use crate::cpu::operations::pressure::{self, Stop};
@@ -130,12 +131,43 @@ impl<T: Real> CpuEngine<T> {
                 let (diagonal, source) = (self.fields.real(Buffer::Diagonal)?, self.fields.real(Buffer::Source)?);
                 let (residual, direction, product) = (&mut residual[..], &mut direction[..], &mut product[..]);
                 let work = conjugate_gradient::Work { residual, direction, product };
-                if self.scene.plan.form == Some(PressureForm::Integral) {
-                    let (matrix, mut coarse) = (self.symmetric()?, self.coarse(&mut vectors)?);
-                    conjugate_gradient::solve(&matrix, &mut coarse, diagonal, points, source, stop, work, &mut pressure)
-                } else {
-                    let (matrix, coarse) = (self.conservative()?, &mut Nothing);
-                    conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
+                let (integral, coarsens) =
+                    (self.scene.plan.form == Some(PressureForm::Integral), self.scene.plan.coarsens());
+                match (integral, coarsens) {
+                    (true, true) => {
+                        let (matrix, mut coarse) = (self.symmetric()?, self.coarse(&mut vectors)?);
+                        conjugate_gradient::solve(
+                            &matrix,
+                            &mut coarse,
+                            diagonal,
+                            points,
+                            source,
+                            stop,
+                            work,
+                            &mut pressure,
+                        )
+                    }
+                    (true, false) => {
+                        let (matrix, coarse) = (self.symmetric()?, &mut Nothing);
+                        conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
+                    }
+                    (false, true) => {
+                        let (matrix, mut coarse) = (self.conservative()?, self.aggregated(&mut vectors)?);
+                        conjugate_gradient::solve(
+                            &matrix,
+                            &mut coarse,
+                            diagonal,
+                            points,
+                            source,
+                            stop,
+                            work,
+                            &mut pressure,
+                        )
+                    }
+                    (false, false) => {
+                        let (matrix, coarse) = (self.conservative()?, &mut Nothing);
+                        conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
+                    }
                 }
             }
         );
@@ -143,9 +175,25 @@ impl<T: Real> CpuEngine<T> {
         Ok(info)
     }
 
-    fn coarse<'a>(&'a self, vectors: &'a mut coarse::Vectors<T>) -> Result<Coarse<'a, T>, EngineError> {
+    fn coarse<'a>(&'a self, vectors: &'a mut coarse::Vectors<T>) -> Result<Coarse<'a, T, Gridded<'a, T>>, EngineError> {
         let (cell, matrix) = (self.fields.index(Buffer::CoarseCell)?, self.fields.real(Buffer::CoarseMatrix)?);
-        Ok(Coarse { grids: self.grids()?, cell, matrix, vectors })
+        Ok(Coarse { hierarchy: Gridded { grids: self.grids()?, matrix }, cell, vectors })
+    }
+
+    fn aggregated<'a>(
+        &'a self,
+        vectors: &'a mut coarse::Vectors<T>,
+    ) -> Result<Coarse<'a, T, Aggregated<'a, T>>, EngineError> {
+        let aggregates = self.scene.aggregates().ok_or(EngineError::Absent(Buffer::AggregateMatrix))?;
+        let hierarchy = Aggregated {
+            levels: &aggregates.levels,
+            start: self.fields.index(Buffer::AggregateStart)?,
+            parts: self.fields.index(Buffer::AggregateParts)?,
+            parent: self.fields.index(Buffer::AggregateParent)?,
+            neighbours: self.fields.index(Buffer::AggregateNeighbours)?,
+            matrix: self.fields.real(Buffer::AggregateMatrix)?,
+        };
+        Ok(Coarse { hierarchy, cell: self.fields.index(Buffer::CoarseCell)?, vectors })
     }
 
     pub(super) fn bicgstab(&mut self, stop: Stop) -> Result<SolveInfo, EngineError> {

@@ -1,14 +1,17 @@
-//! A coarse pressure: what the solvers of points that move add to a residual over the diagonal, so that they need not carry the
-//! pressure from neighbour to neighbour through the whole fluid.
+//! A coarse pressure: what the solvers add to a residual over the diagonal, so that they need not carry the pressure from neighbour
+//! to neighbour through the whole fluid.
 //!
 //! Continuous: the pressure's error is smooth after a few iterations, and a smooth one is that of far fewer points. Discrete: cells
-//! of the neighbour search, `K_0 = R K R^T` with `R` the sum over the points of each cell; then four cells to one,
+//! of the neighbour search where points move, aggregates of some four points where they stand (`aggregates.rs`), `K_0 = R K R^T` with
+//! `R` the sum over the points of each; then four to one,
 //! `K_(l+1) = R K_l R^T / 2`: the halves make up for steps of `R^T`, which are steeper than the slope that they stand for. One cycle
 //! goes down and up through the grids with a damped Jacobi step before and after on each:
 //! `z = r / D + R^T (cycle)(R r)`, linear in `r`, and symmetric where `K` is. Units: those of the matrix.
 //! Sources: Braess, Computing 55 (1995) 379-393 (sums over aggregates, and what they are divided by); Tatebe, NASA CP 3224 (1993)
 //! 621-634 (a cycle as preconditioner of conjugate gradients).
 //! Shapes: see [`crate::step::coarse`]; the matrix entry by entry, all places of one after those of the one before.
+
+use std::ops::Range;
 
 use crate::cpu::blocks;
 use crate::cpu::operations::lists::Lists;
@@ -158,60 +161,69 @@ impl<T: Real> Vectors<T> {
     }
 }
 
+/// What the cycle goes through: levels, each of some places, and the matrix of each.
+pub trait Hierarchy<T: Real>: Sync {
+    fn levels(&self) -> usize;
+
+    /// The places of a level, as ranges of arrays of all levels.
+    fn ranges(&self, level: usize) -> impl Iterator<Item = Range<usize>>;
+
+    /// What a smoothing step multiplies with, at all places.
+    fn smoothing(&self) -> &[T];
+
+    /// Sums a residual at the points up over the finest level.
+    fn sum_points(&self, residual: &[T], right: &mut [T]);
+
+    /// `b - K x` on a level.
+    fn left(&self, level: usize, right: &[T], value: &[T], out: &mut [T]);
+
+    /// Sums what is left on a level up over the one above, as its right side.
+    fn sum_up(&self, level: usize, left: &[T], right: &mut [T]);
+
+    /// Adds what the level above has found.
+    fn bring_down(&self, level: usize, above: &[T], value: &mut [T]);
+}
+
 /// A coarse pressure.
-pub struct Coarse<'a, T> {
-    pub grids: Grids<'a>,
+pub struct Coarse<'a, T, H> {
+    pub hierarchy: H,
+    /// The place of each point's cell, or aggregate.
     pub cell: &'a [u32],
-    pub matrix: &'a [T],
     pub vectors: &'a mut Vectors<T>,
 }
 
-impl<T: Real> Correction<T> for Coarse<'_, T> {
+impl<T: Real, H: Hierarchy<T>> Correction<T> for Coarse<'_, T, H> {
     const PRESENT: bool = true;
 
     fn correct(&mut self, residual: &[T]) -> f64 {
-        let Self { grids, matrix, vectors: Vectors { right, value, smoothed }, .. } = self;
-        let places = right.len();
-        grids.for_each_cell(|place, points| {
-            right[place] = points.iter().map(|&point| residual[point as usize]).fold(T::zero(), |sum, r| sum + r);
-        });
-        let smoothing = &matrix[AROUND * places..];
-        let levels = grids.levels;
-        for (k, &level) in levels.iter().enumerate() {
-            for at in rows(level) {
+        let Self { hierarchy, vectors: Vectors { right, value, smoothed }, .. } = self;
+        let (smoothing, levels) = (hierarchy.smoothing(), hierarchy.levels());
+        hierarchy.sum_points(residual, right);
+        for level in 0..levels {
+            for at in hierarchy.ranges(level) {
                 for ((x, b), s) in value[at.clone()].iter_mut().zip(&right[at.clone()]).zip(&smoothing[at]) {
                     *x = *s * *b;
                 }
             }
-            let Some(&coarse) = levels.get(k + 1) else { break };
-            // What the first smoothing leaves; kept where the second goes.
-            for at in rows(level) {
-                residual_of(matrix, places, level, at, [right, value], smoothed);
-            }
-            for row in 0..coarse.rows {
-                for column in 0..coarse.columns {
-                    let left = children(level, column, row).map(|(x, y)| smoothed[level.at(x, y)]);
-                    right[coarse.at(column, row)] = left.fold(T::zero(), |sum, left| sum + left);
-                }
+            if level + 1 < levels {
+                // What the first smoothing leaves; kept where the second goes.
+                hierarchy.left(level, right, value, smoothed);
+                hierarchy.sum_up(level, smoothed, right);
             }
         }
-        for (k, &level) in levels.iter().enumerate().rev() {
-            if let Some(&coarse) = levels.get(k + 1) {
-                for row in 0..level.rows {
-                    for column in 0..level.columns {
-                        value[level.at(column, row)] += smoothed[coarse.at(column / 2, row / 2)];
-                    }
-                }
+        for level in (0..levels).rev() {
+            if level + 1 < levels {
+                hierarchy.bring_down(level, smoothed, value);
             }
-            for at in rows(level) {
-                residual_of(matrix, places, level, at.clone(), [right, value], smoothed);
+            hierarchy.left(level, right, value, smoothed);
+            for at in hierarchy.ranges(level) {
                 for ((e, x), s) in smoothed[at.clone()].iter_mut().zip(&value[at.clone()]).zip(&smoothing[at]) {
                     *e = *x + *s * *e;
                 }
             }
         }
         let mut sum = 0.0;
-        for at in rows(levels[0]) {
+        for at in hierarchy.ranges(0) {
             let row: T = right[at.clone()].iter().zip(&smoothed[at]).fold(T::zero(), |sum, (b, e)| sum + *b * *e);
             sum += row.to_f64();
         }
@@ -225,26 +237,69 @@ impl<T: Real> Correction<T> for Coarse<'_, T> {
     }
 }
 
-/// The places of each row of a grid.
-fn rows(level: Level) -> impl Iterator<Item = std::ops::Range<usize>> {
-    (0..level.rows).map(move |row| level.at(0, row)..level.at(level.columns, row))
+/// Cells of a grid, and the matrix over them.
+#[derive(Clone, Copy)]
+pub struct Gridded<'a, T> {
+    pub grids: Grids<'a>,
+    pub matrix: &'a [T],
 }
 
-/// `b - K x` at the places of one row of a grid.
-fn residual_of<T: Real>(
-    matrix: &[T],
-    places: usize,
-    level: Level,
-    at: std::ops::Range<usize>,
-    [right, value]: [&[T]; 2],
-    out: &mut [T],
-) {
-    out[at.clone()].copy_from_slice(&right[at.clone()]);
-    for entry in 0..AROUND {
-        let from = at.start + entry / 3 * level.stride() + entry % 3 - level.stride() - 1;
-        let factors = &matrix[entry * places..][at.clone()];
-        for ((out, factor), x) in out[at.clone()].iter_mut().zip(factors).zip(&value[from..from + at.len()]) {
-            *out -= *factor * *x;
+impl<T: Real> Gridded<'_, T> {
+    fn places(&self) -> usize {
+        self.matrix.len() / ENTRIES
+    }
+}
+
+impl<T: Real> Hierarchy<T> for Gridded<'_, T> {
+    fn levels(&self) -> usize {
+        self.grids.levels.len()
+    }
+
+    fn ranges(&self, level: usize) -> impl Iterator<Item = Range<usize>> {
+        let level = self.grids.levels[level];
+        (0..level.rows).map(move |row| level.at(0, row)..level.at(level.columns, row))
+    }
+
+    fn smoothing(&self) -> &[T] {
+        &self.matrix[AROUND * self.places()..]
+    }
+
+    fn sum_points(&self, residual: &[T], right: &mut [T]) {
+        self.grids.for_each_cell(|place, points| {
+            right[place] = points.iter().map(|&point| residual[point as usize]).fold(T::zero(), |sum, r| sum + r);
+        });
+    }
+
+    fn left(&self, level: usize, right: &[T], value: &[T], out: &mut [T]) {
+        let (places, stride) = (self.places(), self.grids.levels[level].stride());
+        for at in self.ranges(level) {
+            out[at.clone()].copy_from_slice(&right[at.clone()]);
+            for entry in 0..AROUND {
+                let from = at.start + entry / 3 * stride + entry % 3 - stride - 1;
+                let factors = &self.matrix[entry * places..][at.clone()];
+                for ((out, factor), x) in out[at.clone()].iter_mut().zip(factors).zip(&value[from..from + at.len()]) {
+                    *out -= *factor * *x;
+                }
+            }
+        }
+    }
+
+    fn sum_up(&self, level: usize, left: &[T], right: &mut [T]) {
+        let (fine, coarse) = (self.grids.levels[level], self.grids.levels[level + 1]);
+        for row in 0..coarse.rows {
+            for column in 0..coarse.columns {
+                let left = children(fine, column, row).map(|(x, y)| left[fine.at(x, y)]);
+                right[coarse.at(column, row)] = left.fold(T::zero(), |sum, left| sum + left);
+            }
+        }
+    }
+
+    fn bring_down(&self, level: usize, above: &[T], value: &mut [T]) {
+        let (fine, coarse) = (self.grids.levels[level], self.grids.levels[level + 1]);
+        for row in 0..fine.rows {
+            for column in 0..fine.columns {
+                value[fine.at(column, row)] += above[coarse.at(column / 2, row / 2)];
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Conjugate gradients for the symmetric pressure equations, preconditioned by the diagonal and, of points that move, a coarse
+//! Conjugate gradients for the symmetric pressure equations, preconditioned by the diagonal and, where there is one, a coarse
 //! pressure.
 //!
 //! `K` is symmetric and, where no pressure is prescribed, singular: its null space is the constants, and the right side sums to zero

@@ -1,5 +1,6 @@
 //! The operations, one name each, on slices of `f32` or `f64`.
 
+pub mod aggregates;
 pub mod bicgstab;
 pub mod buoyancy;
 pub mod carry;

@@ -49,6 +49,7 @@ const CHANGES: [&[&str]; 9] = [
     &["effects.pressure.solver=\"direct\"", "effects.gravity.acceleration=[0.3, -1.0]"],
     &[
         "effects.pressure.tolerance=1e-4",
+        "effects.pressure.preconditioner=\"jacobi\"",
         "method.weight=\"quadratic\"",
         "cloud.arrangement=\"random\"",
         "time.splitting=\"projection\"",
@@ -140,11 +141,13 @@ fn moving_scenes() -> [Scene; 3] {
         .replace("top.velocity = [1.0, 0.0]\n", "")
         .replace("spacing = 0.0625", "spacing = 0.0625\nfill = { from = [0.0, 0.0], to = [0.5, 0.5] }")
         + "[effects.gravity]\nacceleration = [0.0, -1.0]\n";
+    const CORRECTED: &str = "effects.pressure.gradient=\"corrected\"";
+    const JACOBI: &str = "effects.pressure.preconditioner=\"jacobi\"";
     let lagrangian = ["effects.advection.motion=\"lagrangian\"", "method.operators=\"integral\""];
     [
         scene_of(&text, &["effects.advection.motion=\"shifted\"", "time.courant=0.2"]),
         scene_of(&text, &[&lagrangian[..], &["time.courant=0.2"]].concat()),
-        scene_of(&text, &[&lagrangian[..], &["time.courant=0.2", "effects.pressure.gradient=\"corrected\""]].concat()),
+        scene_of(&text, &[&lagrangian[..], &["time.courant=0.2", CORRECTED, JACOBI]].concat()),
     ]
 }
 

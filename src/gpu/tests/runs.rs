@@ -92,7 +92,7 @@ fn steps_agree_with_the_cpu_to_double_precision() {
 #[test]
 fn results_do_not_depend_on_how_steps_are_batched() {
     let implicit = "effects.viscosity={ kinematic = 5.0, scheme = \"implicit\" }";
-    for (changes, solves) in [(&["effects.pressure.tolerance=1e-5"][..], 1), (&[implicit], 2)] {
+    for (changes, solves) in [(&["effects.pressure.tolerance=1e-6"][..], 1), (&[implicit], 2)] {
         let run = |portions: &[u32], iterations: u32| {
             let scene = scene(changes);
             let clock = scene.clock(0.01);

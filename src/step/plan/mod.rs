@@ -29,8 +29,12 @@ pub struct Sizes {
     pub cells: usize,
     /// Coefficients of a fit.
     pub coefficients: usize,
-    /// Places of the grids of the coarse pressure; 0 without it.
+    /// Places of the cells, or aggregates, of the coarse pressure; 0 without it.
     pub coarse: usize,
+    /// Parts of the aggregates; 0 without them, as below.
+    pub parts: usize,
+    /// Links between them, and what whole blocks have beside.
+    pub links: usize,
 }
 
 /// What a scene runs, as data. The same plan drives both engines; `stillpoint plan` prints it.
@@ -57,6 +61,8 @@ pub struct Plan {
     pub flows: bool,
     /// What becomes of the points that the flow has moved.
     pub motion: Motion,
+    /// Points that stand still: their pressure matrix is summed up over aggregates, for conjugate gradients.
+    pub aggregates: bool,
 }
 
 fn solve_by(solver: Solver) -> Operation {
@@ -84,7 +90,7 @@ impl Plan {
 
     /// True where a coarse pressure helps the solver.
     pub fn coarsens(&self) -> bool {
-        self.kick.contains(&Operation::Coarsen)
+        self.aggregates || self.kick.contains(&Operation::Coarsen)
     }
 
     /// True where the points stay where they have moved to.

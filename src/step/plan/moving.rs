@@ -4,12 +4,10 @@ use super::{Plan, solve_by};
 use crate::case::{self, Case, Motion, Operators, Solver, Splitting};
 use crate::step::{Operation, Points, Stage};
 
-/// A solve that a coarse pressure helps along. The direct one needs no help.
-fn coarse_solve(solver: Solver) -> Vec<Operation> {
-    match solver {
-        Solver::Direct => vec![Operation::DirectSolve],
-        iterative => vec![Operation::Coarsen, solve_by(iterative)],
-    }
+/// A solve, with a coarse pressure where one helps it along.
+fn coarse_solve(case: &Case, solver: Solver) -> Vec<Operation> {
+    let coarse = case.coarsens().then_some(Operation::Coarsen);
+    coarse.into_iter().chain([solve_by(solver)]).collect()
 }
 
 impl Plan {
@@ -50,14 +48,14 @@ impl Plan {
                 kick.push(AssembleIntegralLaplacian);
             }
             kick.push(AssembleDensity);
-            kick.extend(coarse_solve(pressure.solver()));
+            kick.extend(coarse_solve(case, pressure.solver()));
             kick.push(match pressure.gradient() {
                 case::Gradient::Corrected => CorrectByMoments,
                 _ => CorrectByLeast,
             });
         } else {
             kick.extend([FactoriseMirrored, FitPredicted, AssembleMirrored]);
-            kick.extend(coarse_solve(pressure.solver()));
+            kick.extend(coarse_solve(case, pressure.solver()));
             kick.push(CorrectMirrored);
             if motion == Motion::Shifted {
                 kick.push(BoundPush);
@@ -82,6 +80,7 @@ impl Plan {
             carried: Vec::new(),
             flows: true,
             motion,
+            aggregates: false,
         }
     }
 }

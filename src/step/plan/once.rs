@@ -31,7 +31,7 @@ impl Plan {
             setup.push(Operation::AssembleCollocated);
         }
         let kick = vec![solve_by(pressure.solver())];
-        Self::once(setup, kick, Some(pressure.form()))
+        Self { aggregates: case.coarsens(), ..Self::once(setup, kick, Some(pressure.form())) }
     }
 
     /// All there is to do is the kick.
@@ -48,6 +48,7 @@ impl Plan {
             carried: Vec::new(),
             flows: false,
             motion: Motion::Fixed,
+            aggregates: false,
         }
     }
 }

@@ -63,6 +63,7 @@ impl Plan {
             carried: case.carried(),
             flows: true,
             motion: Motion::Fixed,
+            aggregates: case.coarsens(),
         }
     }
 }
