@@ -20,17 +20,20 @@ use stillpoint::step::{Buffer, Operation};
 /// Residual over right side.
 const RELATIVE: f64 = 1e-6;
 const SOLVE: Operation = Operation::ConjugateGradient;
+const PRECONDITIONERS: [&str; 2] = ["jacobi", "multigrid"];
 
 fn main() {
     for size in sizes().iter().filter(|size| size.threads == 1) {
-        let mut problem = Problem::new(size);
-        size.pool().install(|| problem.solve());
-        let info = problem.engine.solve_info();
-        let relative = info.last_residual / info.first_residual;
-        println!(
-            "{} {}: {} iterations to {relative:.1e}",
-            problem.scene.sizes.points, size.arrangement, info.iterations
-        );
+        for preconditioner in PRECONDITIONERS {
+            let mut problem = Problem::new(size, preconditioner);
+            size.pool().install(|| problem.solve());
+            let info = problem.engine.solve_info();
+            let relative = info.last_residual / info.first_residual;
+            println!(
+                "{} {}, {preconditioner}: {} iterations to {relative:.1e}",
+                problem.scene.sizes.points, size.arrangement, info.iterations
+            );
+        }
     }
     divan::main();
 }
@@ -41,8 +44,17 @@ fn sizes() -> Vec<Size> {
 }
 
 #[divan::bench(args = sizes(), sample_count = 20, max_time = 10)]
-fn conjugate_gradient(bencher: Bencher, size: &Size) {
-    let mut problem = Problem::new(size);
+fn conjugate_gradient_jacobi(bencher: Bencher, size: &Size) {
+    conjugate_gradient(bencher, size, "jacobi");
+}
+
+#[divan::bench(args = sizes(), sample_count = 20, max_time = 10)]
+fn conjugate_gradient_multigrid(bencher: Bencher, size: &Size) {
+    conjugate_gradient(bencher, size, "multigrid");
+}
+
+fn conjugate_gradient(bencher: Bencher, size: &Size, preconditioner: &str) {
+    let mut problem = Problem::new(size, preconditioner);
     let pool = size.pool();
     bencher.bench_local(|| pool.install(|| problem.solve()));
     let info = problem.engine.solve_info();
@@ -78,9 +90,12 @@ struct Problem {
 }
 
 impl Problem {
-    fn new(size: &Size) -> Self {
-        let scene =
-            size.scene(&[&format!("effects.pressure.tolerance={RELATIVE:e}"), "effects.pressure.max_iterations=20000"]);
+    fn new(size: &Size, preconditioner: &str) -> Self {
+        let scene = size.scene(&[
+            &format!("effects.pressure.tolerance={RELATIVE:e}"),
+            &format!("effects.pressure.preconditioner={preconditioner}"),
+            "effects.pressure.max_iterations=20000",
+        ]);
         let mut engine = CpuEngine::new(scene.clone()).expect("an engine");
         let clock = scene.clock(1.0);
         // The tolerance is of `|div u| dt`: with this source its unit is the source's root mean square.
