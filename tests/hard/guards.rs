@@ -245,7 +245,10 @@ fn a_run_that_fails_ends_with_1_and_one_line_and_leaves_what_it_has() {
     }
     let out = folder.path().join("run");
     let left = result(&out);
-    assert!(left.iter().all(|file| !file.1.windows(3).any(|word| [&b"NaN"[..], b"inf"].contains(&word))));
+    // Of letters that stand for numbers: those of points.vtu, which are the same numbers, may spell anything.
+    let texts = left.iter().filter(|(path, _)| path.extension().is_some_and(|kind| kind == "csv"));
+    let lost = |text: &[u8]| text.windows(3).any(|word| [&b"NaN"[..], b"inf"].contains(&word));
+    assert_eq!(texts.filter(|(_, text)| !lost(text)).count(), 2, "diagnostics.csv and points.csv");
     // It fails in the same way when it is gone on with.
     let output = stillpoint(folder.path(), &["resume", "run", "--quiet"]).output().expect("the command starts");
     assert_eq!((output.status.code(), message(&output)), (Some(1), said));
