@@ -9,7 +9,7 @@ use super::shape::Shape;
 use crate::case::Case;
 
 /// Places along each side at which the spacings are looked at to tell how many points they make.
-const SAMPLES: usize = 256;
+const SAMPLES: usize = 64;
 
 /// The size function of a case.
 #[derive(Debug, Clone, PartialEq)]

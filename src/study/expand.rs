@@ -116,7 +116,7 @@ impl<'a> Expansion<'a> {
     fn try_cloud(&self, case: &Case, words: &str) -> Result<(), StudyError> {
         let same =
             |known: &Case| (&known.domain, &known.cloud, &known.method) == (&case.domain, &case.cloud, &case.method);
-        if Cloud::estimate(case) > CHEAP || self.trials.iter().any(|trial| same(&trial.case)) {
+        if self.trials.iter().any(|trial| same(&trial.case)) || Cloud::estimate(case) > CHEAP {
             return Ok(());
         }
         let failed = |source| StudyError::Scene { path: self.path.to_owned(), setting: one_line(words), source };

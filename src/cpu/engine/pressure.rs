@@ -133,41 +133,16 @@ impl<T: Real> CpuEngine<T> {
                 let work = conjugate_gradient::Work { residual, direction, product };
                 let (integral, coarsens) =
                     (self.scene.plan.form == Some(PressureForm::Integral), self.scene.plan.coarsens());
+                macro_rules! solve {
+                    ($matrix:expr, $coarse:expr) => {
+                        conjugate_gradient::solve($matrix, $coarse, diagonal, points, source, stop, work, &mut pressure)
+                    };
+                }
                 match (integral, coarsens) {
-                    (true, true) => {
-                        let (matrix, mut coarse) = (self.symmetric()?, self.coarse(&mut vectors)?);
-                        conjugate_gradient::solve(
-                            &matrix,
-                            &mut coarse,
-                            diagonal,
-                            points,
-                            source,
-                            stop,
-                            work,
-                            &mut pressure,
-                        )
-                    }
-                    (true, false) => {
-                        let (matrix, coarse) = (self.symmetric()?, &mut Nothing);
-                        conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
-                    }
-                    (false, true) => {
-                        let (matrix, mut coarse) = (self.conservative()?, self.aggregated(&mut vectors)?);
-                        conjugate_gradient::solve(
-                            &matrix,
-                            &mut coarse,
-                            diagonal,
-                            points,
-                            source,
-                            stop,
-                            work,
-                            &mut pressure,
-                        )
-                    }
-                    (false, false) => {
-                        let (matrix, coarse) = (self.conservative()?, &mut Nothing);
-                        conjugate_gradient::solve(&matrix, coarse, diagonal, points, source, stop, work, &mut pressure)
-                    }
+                    (true, true) => solve!(&self.symmetric()?, &mut self.coarse(&mut vectors)?),
+                    (true, false) => solve!(&self.symmetric()?, &mut Nothing),
+                    (false, true) => solve!(&self.conservative()?, &mut self.aggregated(&mut vectors)?),
+                    (false, false) => solve!(&self.conservative()?, &mut Nothing),
                 }
             }
         );
