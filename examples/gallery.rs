@@ -23,7 +23,7 @@ use stillpoint::scene::Scene;
 
 /// Case, its picture, and what of it is changed for a shorter run.
 const SHOWN: [(&str, &str, &[&str]); 24] = [
-    ("cavity_re100_paper", "pressure", &["cloud.spacing=0.05"]),
+    ("cavity_re100_paper", "pressure", &["cloud.spacing=0.03125"]),
     ("cavity_re100_paper_random", "pressure", &["cloud.spacing=0.025", "time.end=6.0"]),
     ("cavity_re100_random", "centreline", &[]),
     ("cavity_re400", "speed", &["cloud.spacing=0.03125"]),

@@ -3,8 +3,8 @@
 //! The independent check of the iterative solvers, their fallback when one stalls, and a solver in its own right: on points that
 //! stand still the factorisation is made once. Both matrices are singular by the constants. The symmetric one is
 //! grounded at its last point and factorised by Cholesky. The collocated one is solved with a Lagrange multiplier
-//! `lambda` on the mean, `A p + lambda 1 = b`: row `k` is replaced by `p_k = 0`, and the two solutions for `b` and for
-//! the vector of ones are put together so that row `k` holds too.
+//! `lambda` on the mean, `A p + lambda v = b`, `v` 1 inside and 0 on walls: row `k` is replaced by `p_k = 0`, and the two solutions
+//! for `b` and for `v` are put together so that row `k` holds too.
 
 use faer::linalg::solvers::{ShapeCore, Solve};
 use faer::sparse::linalg::solvers::{Llt, Lu};
@@ -29,7 +29,8 @@ enum Factor {
     General {
         lu: Box<Lu<usize, f64>>,
         rows: Vec<Vec<(usize, f64)>>,
-        ones: Vec<f64>,
+        /// The solution for `v`.
+        inside: Vec<f64>,
     },
     /// Regular: the pressure is given somewhere.
     Regular {
@@ -53,7 +54,7 @@ impl DirectSolver {
             return Self::regular(rows, sign);
         }
         match scene.constants.singular {
-            true => Self::collocated(rows),
+            true => Self::collocated(rows, scene.cloud.interior),
             false => Self::regular(rows, 1.0),
         }
     }
@@ -85,8 +86,8 @@ impl DirectSolver {
         matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Grounded(factor))).map_err(failed)
     }
 
-    /// A matrix whose rows sum to zero, row by row: column and value.
-    pub fn collocated(rows: Vec<Vec<(usize, f64)>>) -> Result<Self, EngineError> {
+    /// A matrix whose rows sum to zero, row by row: column and value; the rows inside, `interior` in number, come first.
+    pub fn collocated(rows: Vec<Vec<(usize, f64)>>, interior: usize) -> Result<Self, EngineError> {
         // Any interior row will do; the first is one.
         let entries: Vec<_> =
             std::iter::once(Triplet::new(0, 0, 1.0))
@@ -95,10 +96,9 @@ impl DirectSolver {
                 }))
                 .collect();
         let lu = sparse(rows.len(), &entries)?.sp_lu().map_err(failed)?;
-        let mut ones = vec![1.0; rows.len()];
-        ones[0] = 0.0;
-        let ones = solve(&lu, &ones);
-        Ok(Self(Factor::General { lu: Box::new(lu), rows, ones }))
+        let inside: Vec<f64> = (0..rows.len()).map(|row| f64::from(u8::from(0 < row && row < interior))).collect();
+        let inside = solve(&lu, &inside);
+        Ok(Self(Factor::General { lu: Box::new(lu), rows, inside }))
     }
 
     /// A matrix whose rows sum to zero, times `sign`, but for empty ones: there the pressure is given.
@@ -131,13 +131,13 @@ impl DirectSolver {
             }
             Factor::Regular { lu, rows } => return finite(solve(lu.as_ref(), &source[..rows.len()])),
             Factor::Grounded(factor) => return finite(solve(factor, &source[..factor.ncols()])),
-            Factor::General { lu, rows, ones } => {
-                let mut right = source[..ones.len()].to_vec();
+            Factor::General { lu, rows, inside } => {
+                let mut right = source[..rows.len()].to_vec();
                 right[0] = 0.0;
                 let pressure = solve(lu.as_ref(), &right);
                 let along = |x: &[f64]| product(&rows[0], x);
-                let multiplier = (source[0] - along(&pressure)) / (1.0 - along(ones));
-                pressure.iter().zip(ones).map(|(p, one)| p - multiplier * one).collect()
+                let multiplier = (source[0] - along(&pressure)) / (1.0 - along(inside));
+                pressure.iter().zip(inside).map(|(p, inside)| p - multiplier * inside).collect()
             }
         };
         let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
@@ -145,8 +145,8 @@ impl DirectSolver {
         finite(pressure)
     }
 
-    /// Root mean square of what a pressure leaves of the source, `b - A p` less its mean, as the iterative solvers measure
-    /// it: over the volume in the conservative form.
+    /// Root mean square of what a pressure leaves of the source, `b - A p` less its mean over the rows that a multiplier is in, as
+    /// the iterative solvers measure it: over the volume in the conservative form.
     pub fn residual(&self, scene: &Scene, source: &[f64], pressure: &[f64]) -> f64 {
         let of = |point: usize| match (&self.0, scene.cells()) {
             (Factor::General { rows, .. } | Factor::Regular { rows, .. }, _) => {
@@ -161,8 +161,9 @@ impl DirectSolver {
         };
         let mut left: Vec<f64> = (0..scene.sizes.points).map(of).collect();
         let points = left.len() as f64;
-        let mean = if scene.constants.singular { left.iter().sum::<f64>() / points } else { 0.0 };
-        left.iter_mut().for_each(|r| *r -= mean);
+        let shifted = &mut left[..scene.constants.shift.rows];
+        let mean = shifted.iter().sum::<f64>() / shifted.len().max(1) as f64;
+        shifted.iter_mut().for_each(|r| *r -= mean);
         if let Some(cells) = scene.cells() {
             left.iter_mut().zip(&cells.volume).for_each(|(r, volume)| *r /= volume);
         }

@@ -15,6 +15,7 @@ use crate::cloud::flux::Fluxes;
 use crate::cloud::voronoi::{Boundary, Cells};
 use crate::cloud::{Cloud, CloudError, OpenPoint, Side, first_apart, grid, open_points, shortest};
 use crate::cpu::blocks;
+use crate::cpu::operations::bicgstab::Shift;
 use crate::cpu::operations::integral::{self, Lattice};
 use crate::cpu::operations::moments;
 use crate::cpu::operations::moving::{collide, surface};
@@ -95,8 +96,8 @@ pub struct Constants {
     pub floor: f64,
     /// Whether the pressure is found but for a constant: not where fluid leaves at pressure 0.
     pub singular: bool,
-    /// The rank-one shift `c` of a singular pressure matrix: as large as its diagonal, and of its sign.
-    pub shift: f64,
+    /// The rank-one shift of a singular pressure matrix.
+    pub shift: Shift,
 }
 
 /// Why a case cannot be made ready.
@@ -194,12 +195,11 @@ impl Scene {
             viscous_tolerance: case.viscous_tolerance() * cloud.spacing,
             floor: if conservative { Stop::CONSERVATIVE_FLOOR } else { Stop::COLLOCATED_FLOOR },
             singular: !plan.outlets && !plan.moves(),
-            shift: if plan.outlets || plan.moves() {
-                0.0
-            } else if conservative {
-                4.0
-            } else {
-                -4.0 / cloud.spacing.powi(2)
+            shift: match plan.outlets || plan.moves() {
+                true => Shift { factor: 0.0, rows: 0 },
+                false if conservative => Shift { factor: 4.0, rows: cloud.len() },
+                // On walls the left null vector has both signs, which may make up for what it has inside.
+                false => Shift { factor: -4.0 / cloud.spacing.powi(2), rows: cloud.interior },
             },
         };
         if let Some(buoyancy) = &case.effects.buoyancy {

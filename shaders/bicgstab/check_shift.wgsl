@@ -1,4 +1,4 @@
-// BiCGStab, check 2 of 4: what the shift adds to every row, c (1 . p) / N.
+// BiCGStab, check 2 of 4: what the shift adds to a row, c (1 . p) / N.
 
 #import control
 #import total

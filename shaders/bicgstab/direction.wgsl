@@ -1,6 +1,6 @@
 // BiCGStab, iteration 11 of 11: d = r + beta (d - omega v).
 // Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section
-// 7.4.2, with a rank-one shift that makes the singular system regular whatever its left null vector is.
+// 7.4.2, with a rank-one shift of the singular system.
 
 #import points
 

@@ -1,6 +1,7 @@
-// BiCGStab, iteration 3 of 11: v = (A + c 1 1^T / N) M^-1 d, and the sum of shadow v over the points.
+// BiCGStab, iteration 3 of 11: v = (A + c v 1^T / N) M^-1 d, and the sum of shadow v over the points.
 
 #import matrix
+#import shift_of
 #import sums
 
 fn unknown(i: u32) -> real {
@@ -12,7 +13,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let i = index_of(group, local);
     var own = real(0.0);
     if i < PADDED {
-        let v = select(real(0.0), product_of(i) + scalars[CONSTANT], i < POINTS);
+        let v = select(real(0.0), product_of(i) + shift_of(i), i < POINTS);
         product[i] = v;
         own = shadow[i] * v;
     }

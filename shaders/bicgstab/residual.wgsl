@@ -1,7 +1,8 @@
-// BiCGStab, check 3 of 4: r = b - (A + c 1 1^T / N) p; shadow and direction begin as r.
+// BiCGStab, check 3 of 4: r = b - (A + c v 1^T / N) p; shadow and direction begin as r.
 // Sums over the points: the squares of r and of D p as densities, and r r.
 
 #import matrix
+#import shift_of
 #import density
 #import sums
 
@@ -14,7 +15,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let i = index_of(group, local);
     var own = sums();
     if i < PADDED {
-        let r = select(real(0.0), source[i] - product_of(i) - scalars[CONSTANT], i < POINTS);
+        let r = select(real(0.0), source[i] - product_of(i) - shift_of(i), i < POINTS);
         residual[i] = r;
         shadow[i] = r;
         direction[i] = r;

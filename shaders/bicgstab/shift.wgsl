@@ -1,4 +1,4 @@
-// BiCGStab, iterations 2 and 6 of 11: what the shift adds to every row of the next product.
+// BiCGStab, iterations 2 and 6 of 11: what the shift adds to a row of the next product.
 
 #import control
 #import total

@@ -99,6 +99,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("POINTS", sizes.points),
         ("PADDED", scene.padded()),
         ("INTERIOR", sizes.interior),
+        ("SHIFTED", constants.shift.rows),
         ("PRESSURED", sizes.pressured),
         ("FEWEST", constants.fewest as usize),
         ("SURFACE_GAP", surface::GAP as usize),
@@ -172,7 +173,7 @@ pub(super) fn prelude(scene: &Scene, precision: Precision) -> String {
         ("VISCOUS_FLOOR", Stop::CONSERVATIVE_FLOOR),
         ("DYNAMIC_VISCOSITY", constants.density * constants.viscosity),
         ("EPSILON", precision.epsilon()),
-        ("SHIFT_PER_POINT", constants.shift / sizes.points as f64),
+        ("SHIFT_PER_POINT", constants.shift.factor / sizes.points as f64),
     ];
     for (name, value) in whole {
         line(&mut text, format_args!("const {name}: u32 = {value}u;"));

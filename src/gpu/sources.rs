@@ -295,6 +295,7 @@ fn library(name: &str, scene: &Scene) -> Option<&'static str> {
         "brought" => text!("brought"),
         "exchange" => text!("exchange"),
         "face_flux" => text!("face_flux"),
+        "shift_of" => text!("shift_of"),
         "sums" => text!("sums"),
         "total" => text!("total"),
         "finite" => text!("finite"),

@@ -1,7 +1,7 @@
 //! Hard cases of the pressure equation.
 
 use std::sync::Arc;
-use stillpoint::cpu::operations::bicgstab;
+use stillpoint::cpu::operations::bicgstab::{self, Shift};
 use stillpoint::cpu::operations::coarse::Nothing;
 use stillpoint::cpu::operations::conjugate_gradient;
 use stillpoint::cpu::operations::pressure::{Rows, Stop};
@@ -73,8 +73,8 @@ fn incompatible(form: &str, solver: &str) -> Row {
     };
     let compatible = solve(&source);
     let size = source.iter().map(|b| b.abs()).fold(0.0, f64::max);
-    // What a singular matrix leaves out of the question: the constants of the one form; of the other the multiplier on the mean.
-    source[..scene.sizes.points].iter_mut().for_each(|b| *b += size);
+    // What a singular matrix leaves out of the question: the constants of the one form; of the other the multiplier on the mean, which the rows inside have.
+    source[..scene.constants.shift.rows].iter_mut().for_each(|b| *b += size);
     let known = Known::of(&case).expect("a field");
     let scale = scene.cloud.position.iter().map(|&place| known.value(place).abs()).fold(0.0, f64::max);
     let off = solve(&source).iter().zip(&compatible).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale;
@@ -124,7 +124,17 @@ fn breakdowns() -> Vec<Row> {
         let work =
             bicgstab::Work { residual, direction, product, shadow, stabilised, stabilised_product, preconditioned };
         let mut pressure = vector();
-        let info = bicgstab::solve(&Small(matrix), &mut Nothing, &ones, 2, 0.0, source, stop, work, &mut pressure);
+        let info = bicgstab::solve(
+            &Small(matrix),
+            &mut Nothing,
+            &ones,
+            2,
+            Shift { factor: 0.0, rows: 0 },
+            source,
+            stop,
+            work,
+            &mut pressure,
+        );
         (info, pressure)
     };
     let gradients = |matrix: [[f64; 2]; 2], source: &[f64]| {

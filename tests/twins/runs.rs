@@ -103,7 +103,12 @@ fn points_that_move_go_on_to_the_same_bits() {
 #[test]
 fn a_whole_run_in_f64_agrees_with_the_cpu() {
     let Some(candidate) = candidate().filter(|candidate| candidate.double_precision) else { return };
-    let collocated = ["effects.pressure.form=collocated", "effects.advection.remap=forward", "time.courant=0.5"];
+    let collocated = [
+        "effects.pressure.form=collocated",
+        "effects.advection.remap=forward",
+        "time.courant=0.5",
+        "effects.pressure.tolerance=1e-12",
+    ];
     let projection = ["time.splitting=projection", "effects.pressure.gradient=adjoint"];
     let (heated, open) = (scenes::heated(), scenes::OPEN);
     let base = ["cloud.arrangement=jittered", "effects.pressure.tolerance=1e-11", "time.end=0.3"];

@@ -56,6 +56,13 @@ fn at_re_100_every_published_value_is_met_and_errors_fall_at_order_one_and_a_hal
     }
 }
 
+/// The paper's scheme. At 1/32 a multiplier in all rows, walls' too, has no bound.
+#[test]
+fn the_papers_pressure_comes_to_rest_on_coarse_points() {
+    let errors = [24, 32, 40].map(|n| error(&measured("cavity_re100_paper.toml", n, &[]), "u_profile"));
+    assert!(errors.windows(2).all(|pair| pair[1] < 0.75 * pair[0]) && errors[2] < 0.003, "{errors:?}");
+}
+
 #[test]
 fn a_viscosity_a_tenth_too_large_misses_a_published_profile() {
     for name in CASES {

@@ -229,13 +229,13 @@ impl<T: Real> CpuEngine<T> {
             self.fields.write(Buffer::Pressure, &self.scene.scalars(&pressure, 0.0))?;
             let (points, source) = (self.scene.sizes.points, self.fields.real(Buffer::Source)?);
             let pressure = self.fields.real(Buffer::Pressure)?;
-            let singular = self.scene.constants.singular;
+            let shifted = self.scene.constants.shift.rows;
             self.solve.last_residual = match self.scene.cells() {
                 None if self.scene.plan.form == Some(PressureForm::Integral) => {
-                    pressure::residual(&self.symmetric()?, points, singular, source, pressure)
+                    pressure::residual(&self.symmetric()?, points, shifted, source, pressure)
                 }
-                Some(_) => pressure::residual(&self.conservative()?, points, singular, source, pressure),
-                None => pressure::residual(&self.collocated()?, points, singular, source, pressure),
+                Some(_) => pressure::residual(&self.conservative()?, points, shifted, source, pressure),
+                None => pressure::residual(&self.collocated()?, points, shifted, source, pressure),
             };
             self.solve.outcome = Outcome::Converged;
         }

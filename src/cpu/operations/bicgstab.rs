@@ -1,8 +1,8 @@
 //! BiCGStab for a pressure matrix of either form, singular ones too, preconditioned by the diagonal and, of points that move, a
 //! coarse pressure.
 //!
-//! Solves `(A + c 1 1^T / N) p = b`: the rank-one shift makes the system regular whatever the left null vector is, and equals a
-//! Lagrange multiplier on the mean pressure. Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for
+//! Solves `(A + c v 1^T / N) p = b`, `v` 1 in the rows that are shifted and 0 in the others: a Lagrange multiplier on the mean
+//! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for
 //! Sparse Linear Systems (2003), section 7.4.2.
 
 use crate::cpu::blocks;
@@ -23,29 +23,44 @@ pub struct Work<'a, T> {
     pub preconditioned: &'a mut [T],
 }
 
+/// The rank-one shift of a singular matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shift {
+    /// `c`: as large as the matrix's diagonal, and of its sign; 0 where the matrix is regular.
+    pub factor: f64,
+    /// Rows that are shifted, the first ones.
+    pub rows: usize,
+}
+
+impl Shift {
+    /// What it adds to a row that is shifted, of a vector with that sum.
+    fn of<T: Real>(self, sum: f64, points: usize) -> T::Pack {
+        T::Pack::splat(T::from_f64(self.factor / points as f64 * sum))
+    }
+}
+
 /// Solves from the `pressure` at hand. Postcondition as for conjugate gradients.
 pub fn solve<T: Real, C: Correction<T>>(
     matrix: &impl Rows<T>,
     coarse: &mut C,
     diagonal: &[T],
     points: usize,
-    shift: f64,
+    shift: Shift,
     source: &[T],
     stop: Stop,
     work: Work<T>,
     pressure: &mut [T],
 ) -> SolveInfo {
     let Work { residual, direction, product, shadow, stabilised, stabilised_product, preconditioned: scaled } = work;
-    let per_point = shift / points as f64;
     let mut monitor = Monitor::new(stop, points);
     let load = |values: &[T], i: usize| T::Pack::load(&values[i..]);
     loop {
-        let constant = T::Pack::splat(T::from_f64(per_point * total(pressure)));
+        let constant = shift.of::<T>(total(pressure), points);
         let [square, scale, mut rho] = blocks::sum_over([&mut *residual, &mut *shadow], &|start, [r, s]| {
             let mut sums = [T::Pack::zero(); 3];
             for k in (0..r.len()).step_by(T::Pack::LANES) {
                 let i = start + k;
-                let value = load(source, i) - matrix.product(i, pressure) - constant;
+                let value = load(source, i) - matrix.product(i, pressure) - within::<T>(constant, i, shift.rows);
                 let value = within::<T>(value, i, points);
                 value.store(&mut r[k..]);
                 value.store(&mut s[k..]);
@@ -60,7 +75,7 @@ pub fn solve<T: Real, C: Correction<T>>(
         direction.copy_from_slice(residual);
         loop {
             // product = (A + shift) M^-1 direction.
-            shifted_product(matrix, coarse, diagonal, points, per_point, direction, scaled, product);
+            shifted_product(matrix, coarse, diagonal, points, shift, direction, scaled, product);
             let [sv] = dots([(shadow, product)]);
             if sv == 0.0 || rho == 0.0 || !sv.is_finite() {
                 monitor.info.outcome = Outcome::BrokeDown;
@@ -76,7 +91,7 @@ pub fn solve<T: Real, C: Correction<T>>(
                 }
                 []
             });
-            shifted_product(matrix, coarse, diagonal, points, per_point, stabilised, scaled, stabilised_product);
+            shifted_product(matrix, coarse, diagonal, points, shift, stabilised, scaled, stabilised_product);
             let [ts, tt] = dots([(stabilised_product, stabilised), (stabilised_product, stabilised_product)]);
             // A zero here means that the first half of the iteration has already arrived.
             let omega = T::from_f64(if tt > 0.0 { ts / tt } else { 0.0 });
@@ -117,13 +132,13 @@ pub fn solve<T: Real, C: Correction<T>>(
     }
 }
 
-/// `scaled = M^-1 x`, `out = (A + c 1 1^T / N) M^-1 x`.
+/// `scaled = M^-1 x`, `out = (A + c v 1^T / N) M^-1 x`.
 fn shifted_product<T: Real, C: Correction<T>>(
     matrix: &impl Rows<T>,
     coarse: &mut C,
     diagonal: &[T],
     points: usize,
-    per_point: f64,
+    shift: Shift,
     x: &[T],
     scaled: &mut [T],
     out: &mut [T],
@@ -145,11 +160,11 @@ fn shifted_product<T: Real, C: Correction<T>>(
         }
         [lanes::<T>(sum)]
     });
-    let constant = T::Pack::splat(T::from_f64(per_point * sum));
+    let constant = shift.of::<T>(sum, points);
     let [] = blocks::sum_over([out], &|start, [q]| {
         for k in (0..q.len()).step_by(T::Pack::LANES) {
             let i = start + k;
-            within::<T>(matrix.product(i, scaled) + constant, i, points).store(&mut q[k..]);
+            within::<T>(matrix.product(i, scaled) + within::<T>(constant, i, shift.rows), i, points).store(&mut q[k..]);
         }
         []
     });

@@ -109,18 +109,20 @@ impl Monitor {
     }
 }
 
-/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean where the matrix is singular, in the unit that the tolerance is in.
-pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, singular: bool, source: &[T], pressure: &[T]) -> f64 {
+/// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean over the first `shifted` rows, which have a
+/// multiplier where the matrix is singular, in the unit that the tolerance is in.
+pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, shifted: usize, source: &[T], pressure: &[T]) -> f64 {
     let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
     let [sum] = blocks::sum_ranges(source.len(), &|range| {
         let packs = range.step_by(T::Pack::LANES);
-        [packs.map(|i| lanes::<T>(within::<T>(left(i), i, points))).sum()]
+        [packs.map(|i| lanes::<T>(within::<T>(left(i), i, shifted))).sum()]
     });
-    let mean = T::Pack::splat(T::from_f64(if singular { sum / points as f64 } else { 0.0 }));
+    let mean = T::Pack::splat(T::from_f64(sum / shifted.max(1) as f64));
     let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
         for i in range.step_by(T::Pack::LANES) {
-            matrix.measure(i, within::<T>(left(i) - mean, i, points), T::Pack::zero(), &mut sums);
+            let left = left(i) - within::<T>(mean, i, shifted);
+            matrix.measure(i, within::<T>(left, i, points), T::Pack::zero(), &mut sums);
         }
         [lanes::<T>(sums[0])]
     });
