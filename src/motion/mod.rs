@@ -70,9 +70,18 @@ pub struct State<'a> {
     bounded: &'a [u32],
 }
 
+/// The arrays that are looked at beside those of a run's state, empty: of the points at the surface, and of those whose fit was
+/// lowered.
+pub fn flags(scene: &Scene) -> Vec<(Buffer, Data)> {
+    let planned = scene.plan.buffers();
+    let flags = [Buffer::Surface, Buffer::Rung(Points::Standing)].into_iter().filter(|flag| planned.contains(flag));
+    flags.map(|flag| (flag, Data::empty(flag.element()))).collect()
+}
+
 impl<'a> State<'a> {
-    /// `array` gives the arrays of the scene's plan; what it lacks counts as empty.
-    pub fn new(scene: &Scene, array: impl Fn(Buffer) -> Option<&'a Data>) -> Self {
+    /// Of the arrays of a run's state and its [`flags`]; what the scene's plan lacks counts as empty.
+    pub fn new(scene: &Scene, state: &'a [(Buffer, Data)], flags: &'a [(Buffer, Data)]) -> Self {
+        let array = |buffer| state.iter().chain(flags).find(|(known, _)| *known == buffer).map(|(_, data)| data);
         let (fluid, pressured) = (scene.sizes.interior, scene.sizes.pressured);
         let reals = |buffer| match array(buffer) {
             Some(Data::Real(values)) => values.as_slice(),

@@ -25,7 +25,7 @@ pub(super) struct Watch {
     /// Points at the start.
     points: usize,
     shifted: bool,
-    /// What is read of every state beside what is kept of it: of the points at the surface, and of those whose fit was lowered.
+    /// What is read of every state beside what is kept of it.
     flags: Vec<(Buffer, Data)>,
     look: Option<Look>,
 }
@@ -43,10 +43,7 @@ impl Watch {
         let volume = scene.cloud.filled.unwrap_or(0.0) * scene.cloud.interior as f64;
         let floor = -volume * gravity.max(DVec2::ZERO).dot(size);
         let (points, shifted) = (scene.cloud.interior, scene.plan.motion == crate::case::Motion::Shifted);
-        let planned = scene.plan.buffers();
-        let flags = [Buffer::Surface, Buffer::Rung(Points::Standing)].into_iter().filter(|flag| planned.contains(flag));
-        let flags = flags.map(|flag| (flag, Data::empty(flag.element()))).collect();
-        Self { floor, points, shifted, flags, look: None }
+        Self { floor, points, shifted, flags: motion::flags(scene), look: None }
     }
 
     /// Energy above that of all fluid on the floor, m^4/s^2.
@@ -132,9 +129,7 @@ impl Run<'_> {
             return Ok(None);
         }
         self.engine.read_all(&mut self.moving.flags)?;
-        let flags = &self.moving.flags;
-        let flag = |buffer: Buffer| flags.iter().find(|(known, _)| *known == buffer).map(|(_, data)| data);
-        let seen = motion::State::new(self.scene, |buffer| state.array(buffer).or_else(|| flag(buffer)));
+        let seen = motion::State::new(self.scene, &state.arrays, &self.moving.flags);
         let watched = motion::watch(self.scene, &seen);
         let begun =
             || Motion { area: motion::covered(self.scene, &watched), energy: self.moving.energy(&watched), frames: 0 };

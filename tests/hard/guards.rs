@@ -15,7 +15,6 @@ use crate::cases::cavity_of;
 use crate::columns::{MOTIONS, column};
 use crate::flow::{Flow, flow_of, flow_on};
 use crate::folders::{message, result, run, stillpoint};
-use crate::price::{flags, seen};
 use crate::spoiled::Spoiled;
 
 fn limits(changes: &[&str]) -> Vec<Limit> {
@@ -180,7 +179,7 @@ fn shares(scene: &Arc<Scene>) -> [f64; 2] {
         engine.apply(operation, &clock).expect("an operation");
     }
     let mut state = State::read(scene, engine.as_mut(), &Progress::default()).expect("a state");
-    let mut flags = flags(scene);
+    let mut flags = motion::flags(scene);
     let mut least = [f64::INFINITY; 3];
     let mut timed = |which: usize, body: &mut dyn FnMut()| {
         let started = Instant::now();
@@ -193,7 +192,7 @@ fn shares(scene: &Arc<Scene>) -> [f64; 2] {
         timed(2, &mut || {
             if scene.plan.moves() {
                 engine.read_all(&mut flags).expect("flags");
-                let seen = seen(scene, &state, &flags);
+                let seen = motion::State::new(scene, &state.arrays, &flags);
                 let row = motion::measure(scene, &seen, motion::watch(scene, &seen), 0, 0.0, 1.0);
                 assert!(row.nearest[0] > 0.0);
             }

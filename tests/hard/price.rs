@@ -14,7 +14,7 @@ use stillpoint::engine::{Data, first_lost};
 use stillpoint::motion;
 use stillpoint::scene::Scene;
 use stillpoint::simulation::{Progress, State, simulate};
-use stillpoint::step::{Buffer, Points};
+use stillpoint::step::Buffer;
 
 use crate::ROOT;
 
@@ -40,19 +40,6 @@ fn mean(mut body: impl FnMut()) -> f64 {
             return taken / f64::from(times);
         }
     }
-}
-
-/// What is read of points that move beside their state.
-pub fn flags(scene: &Scene) -> Vec<(Buffer, Data)> {
-    let planned = scene.plan.buffers();
-    let flags = [Buffer::Surface, Buffer::Rung(Points::Standing)].into_iter().filter(|flag| planned.contains(flag));
-    flags.map(|flag| (flag, Data::empty(flag.element()))).collect()
-}
-
-/// The two as one.
-pub fn seen<'a>(scene: &Scene, state: &'a State, flags: &'a [(Buffer, Data)]) -> motion::State<'a> {
-    let arrays = || state.arrays.iter().chain(flags);
-    motion::State::new(scene, |buffer| arrays().find(|(known, _)| *known == buffer).map(|(_, data)| data))
 }
 
 /// A row of the table, in per cent of a step. The guards are the energy that is watched and the speed that the next step is chosen
@@ -93,9 +80,9 @@ fn shares(name: &str, set: &[&str]) {
     let kept = share(mean(|| assert_eq!(state.renew(&scene, engine.as_mut()).expect("a state"), None)));
     let (mut judged, mut measured, mut every) = (0.0, 0.0, scene.case.output.report_every);
     if scene.plan.moves() {
-        let mut flags = flags(&scene);
+        let mut flags = motion::flags(&scene);
         let read = mean(|| assert_eq!(engine.read_all(&mut flags).expect("flags"), None));
-        let seen = seen(&scene, &state, &flags);
+        let seen = motion::State::new(&scene, &state.arrays, &flags);
         let judge = mean(|| assert!(motion::watch(&scene, &seen).nearest[0] > 0.0));
         let look = || motion::measure(&scene, &seen, motion::watch(&scene, &seen), 0, 0.0, 1.0);
         let look = mean(|| assert!(look().area > 0.0));
