@@ -6,7 +6,7 @@ use stillpoint::cloud::Cloud;
 use stillpoint::cpu;
 use stillpoint::known::Known;
 
-use crate::cases::{FIT, cavity, cavity_of, problem, vortices};
+use crate::cases::{self, FIT, cavity, cavity_of, problem, vortices};
 use crate::flow::{Open, flow, flow_of};
 use crate::table::{Promise, Row};
 
@@ -64,15 +64,8 @@ pub fn cluster(count: i32) -> Cloud {
 /// How far the velocities of a cavity are from those in metres, in the lid's.
 pub fn scaled(metres: f64, open: Open) -> f64 {
     let scaled = |metres: f64| {
-        let mut case = cavity(&["cloud.arrangement=jittered", "time.end=0.5"]);
-        case.domain.width *= metres;
-        case.domain.height *= metres;
-        case.cloud.spacing *= metres;
-        case.boundaries.top.velocity[0] *= metres;
-        if let Some(viscosity) = &mut case.effects.viscosity {
-            viscosity.kinematic *= metres * metres;
-        }
-        flow(&case, None, open)
+        let case = cavity(&["cloud.arrangement=jittered", "time.end=0.5"]);
+        flow(&cases::scaled(case, metres), None, open)
     };
     match (scaled(1.0), scaled(metres)) {
         (Ok(one), Ok(other)) if other.ended() => {

@@ -9,7 +9,7 @@ use stillpoint::simulation::{Outcome, simulate};
 use stillpoint::snapshot::Snapshot;
 
 use crate::bench::{Open, most};
-use crate::cases::{ARRANGEMENTS, cavity, cavity_of};
+use crate::cases::{self, ARRANGEMENTS, cavity, cavity_of};
 
 fn run(open: Open, case: &Case) -> Outcome {
     let scene = Arc::new(Scene::build(case).expect("a scene"));
@@ -69,14 +69,7 @@ fn one_thread_and_two_and_three_give_the_same_bits() {
 
 /// The same flow in a unit of length `metres` long: places, velocities and the viscosity change, and nothing in proportion.
 fn scaled(open: Open, tolerance: &str, metres: f64, arrangement: &[&str]) -> Vec<[f64; 3]> {
-    let mut case = cavity(&[arrangement, &["time.end=0.5", tolerance]].concat());
-    case.domain.width *= metres;
-    case.domain.height *= metres;
-    case.cloud.spacing *= metres;
-    case.boundaries.top.velocity[0] *= metres;
-    if let Some(viscosity) = &mut case.effects.viscosity {
-        viscosity.kinematic *= metres * metres;
-    }
+    let case = cases::scaled(cavity(&[arrangement, &["time.end=0.5", tolerance]].concat()), metres);
     let outcome = run(open, &case);
     assert_eq!(outcome.fallbacks, 0, "{metres} m, {arrangement:?}");
     let Snapshot { position, velocity, pressure, .. } = outcome.snapshot;

@@ -35,6 +35,19 @@ pub fn cavity_of(n: usize, overrides: &[&str]) -> Case {
     cavity(&[overrides, &[spacing.as_str()]].concat())
 }
 
+/// The same flow in a unit of length `metres` long: places, velocities and the viscosity change, and nothing in proportion.
+#[allow(dead_code, reason = "not every file of tests goes through it")]
+pub fn scaled(mut case: Case, metres: f64) -> Case {
+    case.domain.width *= metres;
+    case.domain.height *= metres;
+    case.cloud.spacing *= metres;
+    case.boundaries.top.velocity[0] *= metres;
+    if let Some(viscosity) = &mut case.effects.viscosity {
+        viscosity.kinematic *= metres * metres;
+    }
+    case
+}
+
 /// A problem without time, on jittered points, `n` spacings to a metre.
 #[allow(dead_code, reason = "not every file of tests goes through it")]
 pub fn problem(n: usize, overrides: &[&str]) -> Case {
