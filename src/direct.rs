@@ -54,7 +54,7 @@ impl DirectSolver {
             return Self::regular(rows, sign);
         }
         match scene.constants.singular {
-            true => Self::collocated(rows, scene.cloud.interior),
+            true => Self::collocated(rows, scene.constants.shift.rows),
             false => Self::regular(rows, 1.0),
         }
     }
@@ -86,8 +86,8 @@ impl DirectSolver {
         matrix.sp_cholesky(Side::Lower).map(|factor| Self(Factor::Grounded(factor))).map_err(failed)
     }
 
-    /// A matrix whose rows sum to zero, row by row: column and value; the rows inside, `interior` in number, come first.
-    pub fn collocated(rows: Vec<Vec<(usize, f64)>>, interior: usize) -> Result<Self, EngineError> {
+    /// A matrix whose rows sum to zero, row by row: column and value; the multiplier is in the first `shifted`, those inside.
+    pub fn collocated(rows: Vec<Vec<(usize, f64)>>, shifted: usize) -> Result<Self, EngineError> {
         // Any interior row will do; the first is one.
         let entries: Vec<_> =
             std::iter::once(Triplet::new(0, 0, 1.0))
@@ -96,7 +96,7 @@ impl DirectSolver {
                 }))
                 .collect();
         let lu = sparse(rows.len(), &entries)?.sp_lu().map_err(failed)?;
-        let inside: Vec<f64> = (0..rows.len()).map(|row| f64::from(u8::from(0 < row && row < interior))).collect();
+        let inside: Vec<f64> = (0..rows.len()).map(|row| f64::from(u8::from(0 < row && row < shifted))).collect();
         let inside = solve(&lu, &inside);
         Ok(Self(Factor::General { lu: Box::new(lu), rows, inside }))
     }

@@ -165,7 +165,7 @@ impl Scene {
             open_capacity: open.iter().map(|open| open.row.len()).max().unwrap_or(0),
             cells: grid.count(),
             coefficients: moments::coefficients(case.method.order),
-            coarse: if plan.kick.contains(&Operation::Coarsen) { coarse::places(&grid) } else { 0 },
+            coarse: if plan.coarsens_over_cells() { coarse::places(&grid) } else { 0 },
             parts: 0,
             links: 0,
         };

@@ -111,11 +111,10 @@ impl Case {
     pub fn preconditioner(&self) -> Option<Preconditioner> {
         let pressure = self.effects.pressure.as_ref().filter(|pressure| pressure.solver() != Solver::Direct)?;
         let summed = self.moves() || pressure.solver() == Solver::ConjugateGradient;
-        Some(pressure.preconditioner.filter(|_| summed).unwrap_or(if summed {
-            Preconditioner::Multigrid
-        } else {
-            Preconditioner::Jacobi
-        }))
+        Some(match summed {
+            true => pressure.preconditioner.unwrap_or(Preconditioner::Multigrid),
+            false => Preconditioner::Jacobi,
+        })
     }
 
     /// Volume change, `|div u| dt` (rms over the points), at which a pressure solve is done.

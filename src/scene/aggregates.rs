@@ -44,10 +44,13 @@ struct Graph {
     held: Vec<f64>,
 }
 
-/// Which group each node is of.
+/// Which group each node is of, and the nodes of each.
 struct Groups {
     of: Vec<u32>,
     count: usize,
+    /// Where the members of each begin, and one more.
+    start: Vec<u32>,
+    members: Vec<u32>,
 }
 
 impl Graph {
@@ -110,25 +113,24 @@ impl Graph {
             }
             count += 1;
         }
-        Groups { of, count: count as usize }
+        Groups::new(of, count as usize)
     }
 
     /// The links between groups, over `scale`.
     fn summed(&self, groups: &Groups, scale: f64) -> Graph {
         let mut sum = Self::empty();
         let mut slot = vec![usize::MAX; groups.count];
-        let (start, members) = groups.members();
         for group in 0..groups.count {
             let first = sum.other.len();
             let mut held = 0.0;
-            for &member in &members[start[group] as usize..start[group + 1] as usize] {
+            for &member in groups.members(group) {
                 held += self.held[member as usize];
                 for (other, weight) in self.links(member as usize) {
                     let other = groups.of[other] as usize;
                     if other == group {
                         continue;
                     }
-                    if slot[other] < first || slot[other] == usize::MAX {
+                    if !(first..sum.other.len()).contains(&slot[other]) {
                         slot[other] = sum.other.len();
                         sum.other.push(other as u32);
                         sum.weight.push(0.0);
@@ -145,19 +147,22 @@ impl Graph {
 }
 
 impl Groups {
-    /// Where the members of each begin, and the members.
-    fn members(&self) -> (Vec<u32>, Vec<u32>) {
-        let mut start = vec![0; self.count + 1];
-        self.of.iter().for_each(|&group| start[group as usize + 1] += 1);
-        for group in 0..self.count {
+    fn new(of: Vec<u32>, count: usize) -> Self {
+        let mut start = vec![0; count + 1];
+        of.iter().for_each(|&group| start[group as usize + 1] += 1);
+        for group in 0..count {
             start[group + 1] += start[group];
         }
-        let (mut next, mut members) = (start.clone(), vec![0; self.of.len()]);
-        for (node, &group) in (0..).zip(&self.of) {
+        let (mut next, mut members) = (start.clone(), vec![0; of.len()]);
+        for (node, &group) in (0..).zip(&of) {
             members[next[group as usize] as usize] = node;
             next[group as usize] += 1;
         }
-        (start, members)
+        Self { of, count, start, members }
+    }
+
+    fn members(&self, group: usize) -> &[u32] {
+        &self.members[self.start[group] as usize..self.start[group + 1] as usize]
     }
 }
 
@@ -232,10 +237,9 @@ impl Aggregates {
     /// The parts and rows of one more level.
     fn add(&mut self, level: Level, graph: &Graph, groups: &Groups, name: &[u32]) {
         let (width, end) = (level.width(), level.first + level.width());
-        let (start, members) = groups.members();
         let before = self.parts.len() as u32;
-        self.start.extend(start[..level.count].iter().map(|start| before + start));
-        self.parts.extend(members.iter().map(|&member| name[member as usize]));
+        self.start.extend(groups.start[..level.count].iter().map(|start| before + start));
+        self.parts.extend(groups.members.iter().map(|&member| name[member as usize]));
         self.start.resize(end, self.parts.len() as u32);
         self.parent.resize(end, 0);
         let unused = |place: usize| if place < level.count { (level.first + place) as u32 } else { 0 };

@@ -69,8 +69,7 @@ impl<T: Real> CpuEngine<T> {
         }
         let per_volume = fields.real(Buffer::Volume).map(reciprocals).unwrap_or_default();
         let domain = Domain::new(scene.constants.size, scene.constants.period);
-        let coarsens = scene.plan.kick.contains(&Operation::Coarsen);
-        let levels = if coarsens { levels(&scene.constants.grid) } else { Vec::new() };
+        let levels = if scene.plan.coarsens_over_cells() { levels(&scene.constants.grid) } else { Vec::new() };
         let coarse = coarse::Vectors::new(scene.sizes.coarse);
         let (solve, viscous_solve, spent) = (SolveInfo::default(), SolveInfo::default(), Spent::default());
         let direct = None;

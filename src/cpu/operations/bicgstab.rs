@@ -2,8 +2,8 @@
 //! coarse pressure.
 //!
 //! Solves `(A + c v 1^T / N) p = b`, `v` 1 in the rows that are shifted and 0 in the others: a Lagrange multiplier on the mean
-//! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992); preconditioned as in Saad, Iterative Methods for
-//! Sparse Linear Systems (2003), section 7.4.2.
+//! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992);
+//! preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section 7.4.2.
 
 use crate::cpu::blocks;
 use crate::cpu::operations::coarse::Correction;

@@ -90,7 +90,12 @@ impl Plan {
 
     /// True where a coarse pressure helps the solver.
     pub fn coarsens(&self) -> bool {
-        self.aggregates || self.kick.contains(&Operation::Coarsen)
+        self.aggregates || self.coarsens_over_cells()
+    }
+
+    /// True where that is of the cells of the neighbour search, anew in every step.
+    pub fn coarsens_over_cells(&self) -> bool {
+        self.kick.contains(&Operation::Coarsen)
     }
 
     /// True where the points stay where they have moved to.
