@@ -71,6 +71,21 @@ macro_rules! with_order {
     };
 }
 
+/// Runs `$body` with `$k` each of `0..$end`, at most [`MOST`], every one a constant of its own. Whether a loop that says the same is
+/// unrolled is up to the compiler; where it is not, its arrays stand in memory instead of registers, at half the speed.
+macro_rules! unrolled {
+    ($k:ident < $end:expr => $body:block) => {
+        unrolled!(@each $k, $end, $body, 0 1 2 3 4 5 6 7 8 9 10 11 12 13)
+    };
+    (@each $k:ident, $end:expr, $body:block, $($value:literal)*) => {
+        $(if $value < $end {
+            #[allow(non_upper_case_globals, reason = "it reads as the index that it is")]
+            const $k: usize = $value;
+            $body
+        })*
+    };
+}
+
 /// Weight of a neighbour at the scaled distance `q = r / r_e`, from `q^2`.
 #[inline(always)]
 pub fn weight<T: Real, P: Pack<T>>(which: Weight, square: P) -> P {
@@ -94,7 +109,8 @@ pub fn weight<T: Real, P: Pack<T>>(which: Weight, square: P) -> P {
 pub fn basis<T: Real, P: Pack<T>, const N: usize>(x: P, y: P) -> [P; N] {
     let mut monomials = [x; N];
     monomials[1] = y;
-    for degree in 2..=LARGEST_ORDER {
+    unrolled!(below < LARGEST_ORDER - 1 => {
+        let degree = below + 2;
         let (previous, first) = (start(degree - 1), start(degree));
         if first < N {
             for k in 0..degree {
@@ -102,7 +118,7 @@ pub fn basis<T: Real, P: Pack<T>, const N: usize>(x: P, y: P) -> [P; N] {
             }
             monomials[first + degree] = y * monomials[first - 1];
         }
-    }
+    });
     monomials
 }
 
@@ -127,7 +143,8 @@ impl<P: Copy, const M: usize> Moments<P, M> {
         // The weighted monomials of one degree after the other.
         let mut terms = [weight * x; 2 * LARGEST_ORDER + 1];
         terms[1] = weight * y;
-        for degree in 2..=2 * LARGEST_ORDER {
+        unrolled!(below < 2 * LARGEST_ORDER - 1 => {
+            let degree = below + 2;
             let first = start(degree) - start(2);
             if first < M {
                 for (sum, term) in self.0[first..].iter_mut().zip(&terms[..degree]) {
@@ -141,21 +158,22 @@ impl<P: Copy, const M: usize> Moments<P, M> {
                     }
                 }
             }
-        }
+        });
     }
 
     /// Lower triangle of the normal matrix, row by row.
     #[inline(always)]
     pub fn matrix<const F: usize>(&self) -> [P; F] {
         let mut matrix = [self.0[0]; F];
-        for (row, (degree, power)) in MONOMIALS.into_iter().enumerate() {
-            for (column, (other, its)) in MONOMIALS[..=row].iter().enumerate() {
+        unrolled!(row < MOST => {
+            unrolled!(column < row + 1 => {
                 let place = entries(row) + column;
                 if place < F {
+                    let [(degree, power), (other, its)] = [MONOMIALS[row], MONOMIALS[column]];
                     matrix[place] = self.0[start(degree + other) - start(2) + power + its];
                 }
-            }
-        }
+            });
+        });
         matrix
     }
 }
@@ -169,9 +187,9 @@ pub fn factorise<T: Real, P: Pack<T>, const N: usize, const F: usize>(matrix: [P
     let threshold = P::splat(T::from_f64(PIVOT_THRESHOLD));
     let mut factor = matrix;
     let mut pivots = [one; N];
-    for row in 0..N {
+    unrolled!(row < N => {
         let start = entries(row);
-        for column in 0..=row {
+        unrolled!(column < row + 1 => {
             let other = entries(column);
             let mut entry = factor[start + column];
             for k in 0..column {
@@ -185,8 +203,8 @@ pub fn factorise<T: Real, P: Pack<T>, const N: usize, const F: usize>(matrix: [P
                 pivots[row] = relative;
                 factor[start + column] = relative.select_above(threshold, reciprocal, P::zero());
             }
-        }
-    }
+        });
+    });
     (factor, pivots)
 }
 
@@ -201,19 +219,20 @@ pub fn least<T: Real, P: Pack<T>>(pivots: &[P]) -> P {
 #[inline(always)]
 pub fn solve<T: Real, P: Pack<T>, const N: usize, const F: usize>(factor: &[P; F], right: [P; N]) -> [P; N] {
     let mut a = right;
-    for row in 0..N {
+    unrolled!(row < N => {
         let start = entries(row);
         for k in 0..row {
             a[row] -= factor[start + k] * a[k];
         }
         a[row] = a[row] * factor[start + row];
-    }
-    for row in (0..N).rev() {
+    });
+    unrolled!(above < N => {
+        let row = N - 1 - above;
         for k in row + 1..N {
             a[row] -= factor[entries(k) + row] * a[k];
         }
         a[row] = a[row] * factor[entries(row) + row];
-    }
+    });
     a
 }
 
