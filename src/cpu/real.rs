@@ -75,8 +75,11 @@ pub trait Pack<T: Real>:
     /// `self * factor + term`, rounded once where the processor can.
     fn mul_add(self, factor: Self, term: Self) -> Self;
     fn max(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self;
     /// `yes` where `self > bound`, else `no`, lane by lane.
     fn select_above(self, bound: Self, yes: Self, no: Self) -> Self;
+    /// The lanes where `self > bound`, a bit each.
+    fn above(self, bound: Self) -> u32;
 
     fn zero() -> Self {
         Self::splat(T::zero())
@@ -207,8 +210,18 @@ macro_rules! real {
             }
 
             #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.fast_min(other)
+            }
+
+            #[inline(always)]
             fn select_above(self, bound: Self, yes: Self, no: Self) -> Self {
                 self.simd_gt(bound).select(yes, no)
+            }
+
+            #[inline(always)]
+            fn above(self, bound: Self) -> u32 {
+                self.simd_gt(bound).to_bitmask() as u32
             }
         }
     };
@@ -306,8 +319,18 @@ impl<T: Real> Pack<T> for One<T> {
     }
 
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+
+    #[inline(always)]
     fn select_above(self, bound: Self, yes: Self, no: Self) -> Self {
         if self.0 > bound.0 { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn above(self, bound: Self) -> u32 {
+        u32::from(self.0 > bound.0)
     }
 }
 

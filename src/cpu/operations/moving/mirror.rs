@@ -69,21 +69,22 @@ impl<'a, T: Real> Stencil<'a, T> {
         let Mirrors { size, radius, present } = around.mirrors;
         // Beyond every neighbourhood, and still exact enough in f32.
         let far = T::from_f64(-64.0) * (radius + size[0] + size[1]);
-        let mut sees = [false; 2];
-        let twice = [0, 1].map(|axis: usize| {
-            T::Pack::from_lanes(|lane| {
-                let x = own[axis].lane(lane);
-                let (low, high) = (present && x < radius, present && size[axis] - x < radius);
-                sees[axis] |= low || high;
-                match (low, high) {
-                    (true, _) => T::zero(),
-                    (_, true) => size[axis] + size[axis],
-                    _ => far,
-                }
-            })
-        });
+        let wall = |axis: usize| {
+            let (x, end) = (own[axis], T::Pack::splat(size[axis]));
+            let reach = T::Pack::splat(if present { radius } else { T::zero() });
+            let high = reach.select_above(end - x, end + end, T::Pack::splat(far));
+            (reach.select_above(x, T::Pack::zero(), high), reach.above(x) | reach.above(end - x) != 0)
+        };
+        let (across_x, across_y) = (wall(0), wall(1));
+        let (twice, sees) = ([across_x.0, across_y.0], [present && across_x.1, present && across_y.1]);
         let per_radius = T::Pack::splat(T::from_f64(1.0) / radius);
         Self { around, i, own, per_radius, twice, sees }
+    }
+
+    /// Whether any of the points has images around it.
+    #[inline(always)]
+    pub fn sees_walls(&self) -> bool {
+        self.sees[0] || self.sees[1]
     }
 
     /// Calls `body` for every slot, each followed by its images, then for the images of the points themselves.
@@ -91,12 +92,11 @@ impl<'a, T: Real> Stencil<'a, T> {
     pub fn for_each(&self, mut body: impl FnMut(Neighbour<'_, T::Pack>)) {
         let one = T::Pack::splat(T::from_f64(1.0));
         let zero = T::Pack::zero();
-        let [across_x, across_y] = self.sees;
-        let images = across_x || across_y;
+        let images = self.sees_walls();
         self.around.lists.for_each::<T>(self.i, |slot, index| {
             // SAFETY: every stored neighbour is below the number of points.
             let place = unsafe { T::Pack::gather_vectors(self.around.position, index) };
-            let offset = [place[0] - self.own[0], place[1] - self.own[1]].map(|d| d * self.per_radius);
+            let offset = [(place[0] - self.own[0]) * self.per_radius, (place[1] - self.own[1]) * self.per_radius];
             let square = offset[0] * offset[0] + offset[1] * offset[1];
             let way = [zero; 2];
             body(Neighbour { slot, index, offset, square, flipped: [false; 2], way, counts: one });
@@ -135,6 +135,9 @@ impl<'a, T: Real> Stencil<'a, T> {
                 let offset = [0, 1].map(|axis| (place[axis] + way[axis] - self.own[axis]) * self.per_radius);
                 let square = offset[0] * offset[0] + offset[1] * offset[1];
                 let counts = square.select_above(one, zero, used);
+                if counts.above(zero) == 0 {
+                    continue;
+                }
                 body(Neighbour { slot, index, offset, square, flipped, way, counts });
             }
         }
@@ -152,5 +155,25 @@ impl<P: Copy + std::ops::Neg<Output = P>> Neighbour<'_, P> {
     #[inline(always)]
     pub fn is_point(&self) -> bool {
         self.flipped == [false; 2]
+    }
+}
+
+/// Whether the points of a pack have a neighbour on the surface.
+#[derive(Default)]
+pub struct Shore([u32; BLOCK]);
+
+impl Shore {
+    /// Takes the neighbours of one slot; `surface` is 1 at the points of the surface.
+    #[inline(always)]
+    pub fn meet(&mut self, surface: &[u32], index: &[u32]) {
+        for (met, &j) in self.0.iter_mut().zip(index) {
+            *met |= surface[j as usize];
+        }
+    }
+
+    /// 1 where one has been met, 0 elsewhere.
+    #[inline(always)]
+    pub fn beside<T: Real>(&self) -> T::Pack {
+        T::Pack::from_lanes(|lane| T::from_f64(f64::from(self.0[lane])))
     }
 }

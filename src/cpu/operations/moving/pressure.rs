@@ -9,7 +9,7 @@
 
 use super::N;
 use super::fits::{coefficient, factor_of};
-use super::mirror::{Around, OWN, Stencil};
+use super::mirror::{Around, OWN, Shore, Stencil};
 use crate::case::Weight;
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::integral;
@@ -74,38 +74,51 @@ pub fn assemble<T: Real>(
                 let entry = near.counts * moments::weight(equation.weight, near.square) * dot(&c, basis);
                 signs[0] += (-entry).max(T::Pack::zero());
                 signs[1] += entry.max(T::Pack::zero());
-            });
-            let limit = T::Pack::splat(T::from_f64(WRONG_SIGN));
-            let fits =
-                (limit * signs[1] - signs[0]).select_above(T::Pack::zero(), T::Pack::splat(one), T::Pack::zero());
-            let mean = (T::Pack::splat(one) - fits) * T::Pack::splat(equation.per_area);
-            let (mut sum, mut offset) = (T::Pack::zero(), T::Pack::zero());
-            // Whether a point has a neighbour on the surface.
-            let mut shore = T::Pack::zero();
-            stencil.for_each(|near| {
-                let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
-                let weight = near.counts * moments::weight(equation.weight, near.square);
-                let plain = integral::weight::<T>(near.square);
-                let entry = inside * (fits * weight * dot(&c, basis) + near.counts * mean * plain);
                 if near.is_point() {
                     entry.store(&mut row[near.slot * BLOCK + first..]);
-                    shore += T::Pack::from_lanes(|lane| T::from_f64(f64::from(surface[near.index[lane] as usize])));
-                } else {
-                    offset += entry * (gx * near.way[0] + gy * near.way[1]);
-                    if near.slot != OWN {
-                        let place = near.slot * BLOCK + first;
-                        (T::Pack::load(&row[place..]) + entry).store(&mut row[place..]);
-                    }
-                }
-                if near.slot != OWN {
-                    sum += entry;
                 }
             });
+            let limit = T::Pack::splat(T::from_f64(WRONG_SIGN));
+            let right_sign = limit * signs[1] - signs[0];
+            let fits = right_sign.select_above(T::Pack::zero(), T::Pack::splat(one), T::Pack::zero());
+            let mean = (T::Pack::splat(one) - fits) * T::Pack::splat(equation.per_area);
+            let (mut sum, mut offset) = (T::Pack::zero(), T::Pack::zero());
+            let mut shore = Shore::default();
+            if !stencil.sees_walls() && right_sign.above(T::Pack::zero()).count_ones() as usize == T::Pack::LANES {
+                // What stands there already, but for points of the surface.
+                around.lists.for_each::<T>(i, |slot, index| {
+                    let place = slot * BLOCK + first;
+                    let entry = inside * T::Pack::load(&row[place..]);
+                    entry.store(&mut row[place..]);
+                    sum += entry;
+                    shore.meet(surface, index);
+                });
+            } else {
+                stencil.for_each(|near| {
+                    let basis: [T::Pack; N] = moments::basis(near.offset[0], near.offset[1]);
+                    let weight = near.counts * moments::weight(equation.weight, near.square);
+                    let plain = integral::weight::<T>(near.square);
+                    let entry = inside * (fits * weight * dot(&c, basis) + near.counts * mean * plain);
+                    if near.is_point() {
+                        entry.store(&mut row[near.slot * BLOCK + first..]);
+                        shore.meet(surface, near.index);
+                    } else {
+                        offset += entry * (gx * near.way[0] + gy * near.way[1]);
+                        if near.slot != OWN {
+                            let place = near.slot * BLOCK + first;
+                            (T::Pack::load(&row[place..]) + entry).store(&mut row[place..]);
+                        }
+                    }
+                    if near.slot != OWN {
+                        sum += entry;
+                    }
+                });
+            }
             let per_radius = stencil.per_radius;
             let divergence = per_radius * (coefficient(coefficients, i, 0, 0) + coefficient(coefficients, i, 1, 1));
             // Beside the surface a density below the lattice's is no error.
             let excess = T::Pack::load(&crowding[i..]) - T::Pack::splat(one);
-            let excess = shore.select_above(T::Pack::zero(), excess.max(T::Pack::zero()), excess);
+            let excess = shore.beside::<T>().select_above(T::Pack::zero(), excess.max(T::Pack::zero()), excess);
             let flow =
                 T::Pack::splat(equation.density_per_dt) * divergence - T::Pack::splat(equation.stiffness) * excess;
             let right = inside * (flow - offset);

@@ -9,7 +9,7 @@
 
 use super::N;
 use super::fits::coefficient;
-use super::mirror::{Around, Stencil};
+use super::mirror::{Around, Shore, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::moments;
 use crate::cpu::real::{Pack, Real};
@@ -41,20 +41,21 @@ pub fn shift<T: Real>(
         for i in blocks::packs::<T>(block, interior) {
             let stencil = Stencil::new(around, i);
             let (mut full, mut parting, mut normal) = ([zero; 2], [zero; 2], [zero; 2]);
-            let mut shore = zero;
+            let mut shore = Shore::default();
             stencil.for_each(|near| {
                 let distance = near.square.max(tiny).sqrt();
                 let spacings = distance * in_spacings;
                 let even = (one - spacings * constant(1.0 / REACH)).max(zero);
                 let close = (one - spacings).max(zero);
                 let rest = (one - near.square).max(zero);
-                let weights = [even * even, close, rest * rest].map(|weight| near.counts * weight / distance);
+                let per_distance = near.counts / distance;
+                let weights = [even * even, close, rest * rest].map(|weight| weight * per_distance);
                 for axis in 0..2 {
                     full[axis] -= weights[0] * near.offset[axis];
                     parting[axis] -= weights[1] * near.offset[axis];
                     normal[axis] -= weights[2] * near.offset[axis];
                 }
-                shore += T::Pack::from_lanes(|lane| T::from_f64(f64::from(surface[near.index[lane] as usize])));
+                shore.meet(surface, near.index);
             });
             let own = T::Pack::from_lanes(|lane| T::from_f64(f64::from(surface[i + lane])));
             let length = (normal[0] * normal[0] + normal[1] * normal[1]).max(tiny).sqrt();
@@ -63,7 +64,7 @@ pub fn shift<T: Real>(
             let full = full.map(|d| d * constant(STRENGTH));
             let parting = parting.map(|d| d * constant(PARTING));
             // Along the normal: all inside, of close points beside the surface, nothing on it.
-            let beside = (own + shore).select_above(zero, along(parting) - along(full), zero);
+            let beside = (own + shore.beside::<T>()).select_above(zero, along(parting) - along(full), zero);
             let change = own.select_above(zero, -along(full), beside);
             let mut delta = [0, 1].map(|axis| full[axis] + change * normal[axis]);
             let length = (delta[0] * delta[0] + delta[1] * delta[1]).max(tiny).sqrt();

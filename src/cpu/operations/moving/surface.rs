@@ -7,13 +7,14 @@
 //! density below [`THRESHOLD`] too. Sources: Dilts, Int. J. Numer. Meth. Eng. 48 (2000) 1503-1524 (circles); Koshizuka and
 //! Oka (1996) (density).
 
-use super::mirror::{Around, Stencil};
+use super::mirror::{Around, Neighbour, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::integral::weight;
 use crate::cpu::real::{Pack, Real};
 
 /// Places on the circle about a point; their number is that of the bits of a word.
 pub const DIRECTIONS: usize = 32;
+const HALF: usize = DIRECTIONS / 2;
 /// Uncovered places in a row that make a surface.
 pub const GAP: u32 = 2;
 /// Radius of the circles, in spacings.
@@ -26,11 +27,11 @@ pub const THRESHOLD: f64 = 0.97;
 pub const THIN: f64 = 0.65;
 pub const FEW: f64 = 0.25;
 
-/// The directions as unit vectors.
+/// The directions as unit vectors, the second half the first one's negatives.
 pub fn directions() -> [[f64; 2]; DIRECTIONS] {
     std::array::from_fn(|k| {
-        let (y, x) = (std::f64::consts::TAU * k as f64 / DIRECTIONS as f64).sin_cos();
-        [x, y]
+        let (y, x) = (std::f64::consts::TAU * (k % HALF) as f64 / DIRECTIONS as f64).sin_cos();
+        if k < HALF { [x, y] } else { [-x, -y] }
     })
 }
 
@@ -52,6 +53,62 @@ pub fn has_gap(uncovered: u32) -> bool {
     (1..GAP).fold(uncovered, |rows, step| rows & uncovered.rotate_left(step)) != 0
 }
 
+/// Every other direction that has an opposite one: those at even places, those at odd ones.
+type Sides<P> = [[P; 2]; HALF / 2];
+
+/// How far the circles about neighbours reach beyond places on that about a point: above 0 where one covers it.
+#[derive(Clone, Copy)]
+struct Reach<P> {
+    ahead: [P; HALF / 2],
+    behind: [P; HALF / 2],
+}
+
+impl<P> Reach<P> {
+    #[inline(always)]
+    fn none<T: Real>() -> Self
+    where
+        P: Pack<T>,
+    {
+        Self { ahead: [P::zero(); HALF / 2], behind: [P::zero(); HALF / 2] }
+    }
+
+    #[inline(always)]
+    fn add<T: Real>(&mut self, sides: &Sides<P>, near: &Neighbour<P>)
+    where
+        P: Pack<T>,
+    {
+        let ([x, y], square) = (near.offset.map(|d| near.counts * d), near.counts * near.square);
+        for (k, [ex, ey]) in sides.iter().enumerate() {
+            let along = *ex * x + *ey * y;
+            self.ahead[k] = self.ahead[k].max(along - square);
+            self.behind[k] = self.behind[k].max(-along - square);
+        }
+    }
+
+    /// The lanes that have an uncovered place.
+    #[inline(always)]
+    fn open<T: Real>(&self) -> u32
+    where
+        P: Pack<T>,
+    {
+        let both = self.ahead.iter().chain(&self.behind);
+        let least = both.fold(self.ahead[0], |least, reach| least.min(*reach));
+        !least.above(P::zero()) & ((1 << P::LANES) - 1)
+    }
+
+    /// The uncovered places of a lane, the first of them at the place `first`.
+    #[inline(always)]
+    fn uncovered<T: Real>(&self, lane: usize, first: usize) -> u32
+    where
+        P: Pack<T>,
+    {
+        let bit = |reach: &P, place: usize| u32::from(reach.lane(lane) <= T::zero()) << place;
+        let places = self.ahead.iter().zip(&self.behind).enumerate();
+        places
+            .fold(0, |word, (k, (ahead, behind))| word | bit(ahead, 2 * k + first) | bit(behind, 2 * k + first + HALF))
+    }
+}
+
 /// Fills the density over that of a lattice, and 1 for points of the surface. Points that have no pressure are none.
 pub fn find_surface<T: Real>(
     around: Around<T>,
@@ -61,14 +118,16 @@ pub fn find_surface<T: Real>(
     surface: &mut [u32],
 ) {
     let directions = directions().map(|e| e.map(|e| T::Pack::splat(T::from_f64(2.0 * e) * crowd.reach)));
+    let [even, odd]: [Sides<T::Pack>; 2] = [0, 1].map(|first| std::array::from_fn(|k| directions[2 * k + first]));
     let one = T::Pack::splat(T::from_f64(1.0));
     let zero = T::Pack::zero();
     blocks::for_each_2((crowding, 1), (surface, 1), &|block, crowding, surface| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let i = block * BLOCK + first;
+            let stencil = Stencil::new(around, i);
             let mut density = zero;
-            let mut covered = [zero; DIRECTIONS];
-            Stencil::new(around, i).for_each(|near| {
+            let mut reach = Reach::none();
+            stencil.for_each(|near| {
                 let crowding = match crowd.integral {
                     true => weight::<T>(near.square),
                     // Unused slots hold the point itself.
@@ -78,23 +137,23 @@ pub fn find_surface<T: Real>(
                     }
                 };
                 density += near.counts * crowding;
-                let [x, y] = near.offset;
-                for (covered, [ex, ey]) in covered.iter_mut().zip(&directions) {
-                    *covered = covered.max(near.counts * ((*ex * x + *ey * y) - near.square));
-                }
+                reach.add(&even, &near);
             });
             (density * T::Pack::splat(crowd.per_density)).store(&mut crowding[first..]);
+            // A gap of two or more has an even place: few points need be looked at again.
+            let open = reach.open();
+            let mut between = Reach::none();
+            if open != 0 {
+                stencil.for_each(|near| between.add(&odd, &near));
+            }
             for lane in 0..T::Pack::LANES {
-                let mut uncovered = 0_u32;
-                for (k, covered) in covered.iter().enumerate() {
-                    uncovered |= u32::from(covered.lane(lane) <= T::zero()) << k;
-                }
+                let gap = open >> lane & 1 != 0 && has_gap(reach.uncovered(lane, 0) | between.uncovered(lane, 1));
                 let density = crowding[first + lane];
                 let free = match crowd.integral {
-                    true => density < T::from_f64(THRESHOLD) && has_gap(uncovered),
+                    true => density < T::from_f64(THRESHOLD) && gap,
                     false => {
                         let few = around.lists.count[i + lane] < crowd.fewest;
-                        few || density < T::from_f64(THIN) || has_gap(uncovered)
+                        few || density < T::from_f64(THIN) || gap
                     }
                 };
                 surface[first + lane] = u32::from(i + lane < pressured && free);
