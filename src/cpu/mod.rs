@@ -6,6 +6,7 @@ mod fields;
 mod gather;
 pub mod operations;
 pub mod real;
+mod unrolled;
 
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@
 //! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992);
 //! preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section 7.4.2.
 
-use crate::cpu::blocks;
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
@@ -147,11 +147,12 @@ fn shifted_product<T: Real, C: Correction<T>>(
         coarse.correct(x);
     }
     let coarse = &*coarse;
+    let load = |values: &[T], i: usize| T::Pack::load(&values[i..]);
     let [sum] = blocks::sum_over([&mut *scaled], &|start, [z]| {
         let mut sum = T::Pack::zero();
         for k in (0..z.len()).step_by(T::Pack::LANES) {
             let i = start + k;
-            let mut value = T::Pack::load(&x[i..]) / T::Pack::load(&diagonal[i..]);
+            let mut value = load(x, i) / load(diagonal, i);
             if C::PRESENT {
                 value += coarse.at(i);
             }
@@ -162,9 +163,12 @@ fn shifted_product<T: Real, C: Correction<T>>(
     });
     let constant = shift.of::<T>(sum, points);
     let [] = blocks::sum_over([out], &|start, [q]| {
-        for k in (0..q.len()).step_by(T::Pack::LANES) {
-            let i = start + k;
-            within::<T>(matrix.product(i, scaled) + within::<T>(constant, i, shift.rows), i, points).store(&mut q[k..]);
+        for first in (0..q.len()).step_by(BLOCK) {
+            matrix.block_of_products((start + first) / BLOCK, scaled, &mut q[first..]);
+            for k in (first..first + BLOCK).step_by(T::Pack::LANES) {
+                let i = start + k;
+                within::<T>(load(q, k) + within::<T>(constant, i, shift.rows), i, points).store(&mut q[k..]);
+            }
         }
         []
     });

@@ -28,6 +28,11 @@ impl<T: Real> Rows<T> for Collocated<'_, T> {
     }
 
     #[inline(always)]
+    fn block_of_products(&self, block: usize, p: &[T], out: &mut [T]) {
+        self.lists.block_of_differences(block, self.row, p, out);
+    }
+
+    #[inline(always)]
     fn measure(&self, _: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
         sums[0] += residual * residual;
         sums[1] += size * size;

@@ -6,7 +6,7 @@
 //! Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 //! algorithm 9.1.
 
-use crate::cpu::blocks;
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
@@ -75,10 +75,11 @@ pub fn solve<T: Real, C: Correction<T>>(
         loop {
             let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
-                for k in (0..q.len()).step_by(T::Pack::LANES) {
-                    let value = matrix.product(start + k, direction);
-                    value.store(&mut q[k..]);
-                    dq += value * T::Pack::load(&direction[start + k..]);
+                for first in (0..q.len()).step_by(BLOCK) {
+                    matrix.block_of_products((start + first) / BLOCK, direction, &mut q[first..]);
+                    for k in (first..first + BLOCK).step_by(T::Pack::LANES) {
+                        dq += T::Pack::load(&q[k..]) * T::Pack::load(&direction[start + k..]);
+                    }
                 }
                 [lanes::<T>(dq)]
             });

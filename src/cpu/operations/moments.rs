@@ -9,6 +9,7 @@
 
 use crate::case::Weight;
 use crate::cpu::real::{Pack, Real};
+use crate::cpu::unrolled::unrolled;
 
 /// Most coefficients: those of order 4.
 const MOST: usize = coefficients(LARGEST_ORDER);
@@ -68,21 +69,6 @@ macro_rules! with_order {
             3 => with_order!(@one 3, $n, $f, $m, $body),
             _ => with_order!(@one 4, $n, $f, $m, $body),
         }
-    };
-}
-
-/// Runs `$body` with `$k` each of `0..$end`, at most [`MOST`], every one a constant of its own. Whether a loop that says the same is
-/// unrolled is up to the compiler; where it is not, its arrays stand in memory instead of registers, at half the speed.
-macro_rules! unrolled {
-    ($k:ident < $end:expr => $body:block) => {
-        unrolled!(@each $k, $end, $body, 0 1 2 3 4 5 6 7 8 9 10 11 12 13)
-    };
-    (@each $k:ident, $end:expr, $body:block, $($value:literal)*) => {
-        $(if $value < $end {
-            #[allow(non_upper_case_globals, reason = "it reads as the index that it is")]
-            const $k: usize = $value;
-            $body
-        })*
     };
 }
 

@@ -1,6 +1,6 @@
 //! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
 
-use crate::cpu::blocks;
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
 
@@ -8,6 +8,14 @@ use crate::engine::{Outcome, SolveInfo};
 pub trait Rows<T: Real>: Sync {
     /// `(A p)_i` for the points `i..i + LANES`.
     fn product(&self, i: usize, p: &[T]) -> T::Pack;
+
+    /// The same, to the last bit, for all points of a block.
+    #[inline(always)]
+    fn block_of_products(&self, block: usize, p: &[T], out: &mut [T]) {
+        for k in (0..BLOCK).step_by(T::Pack::LANES) {
+            self.product(block * BLOCK + k, p).store(&mut out[k..]);
+        }
+    }
 
     /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the
     /// diagonal times the solution, which is what rounding errors are measured against.

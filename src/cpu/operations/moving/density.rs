@@ -34,6 +34,16 @@ impl<T: Real> Rows<T> for Symmetric<'_, T> {
     }
 
     #[inline(always)]
+    fn block_of_products(&self, block: usize, p: &[T], out: &mut [T]) {
+        self.lists.block_of_differences(block, self.row, p, out);
+        for k in (0..BLOCK).step_by(T::Pack::LANES) {
+            let pressured = block * BLOCK + k < self.pressured;
+            let value = if pressured { -T::Pack::load(&out[k..]) } else { T::Pack::zero() };
+            value.store(&mut out[k..]);
+        }
+    }
+
+    #[inline(always)]
     fn measure(&self, _: usize, residual: T::Pack, size: T::Pack, sums: &mut [T::Pack]) {
         let scale = T::Pack::splat(self.per_area);
         let (residual, size) = (residual * scale, size * scale);
