@@ -3,9 +3,13 @@
 //! The cells are squares of side `r_e`; counting, a running sum and a stable scatter put the points in order, cell by
 //! cell, so that the same points give the same lists. Shapes: one list of `capacity` slots a point, blocked.
 
+use std::ops::Range;
+
 use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::compact;
 use crate::cpu::operations::space::Space;
-use crate::cpu::real::{One, Real};
+use crate::cpu::real::{One, Pack, Real};
+use crate::cpu::unrolled::unrolled;
 use crate::step::Grid;
 
 /// Points sorted into cells, to be searched.
@@ -47,37 +51,82 @@ pub fn build_cells<T: Real>(position: &[T], points: usize, grid: &Grid, start: &
 impl<T: Real, S: Space<T>> Search<'_, T, S> {
     /// Calls `found(j)` for every point within `radius` of point `i`, `i` itself apart, in the order of the cells: along
     /// each row from the window's first, past the seam where it reaches there.
-    #[inline(always)]
     pub fn within(&self, i: usize, radius: T, mut found: impl FnMut(u32)) {
-        self.around(i, radius, |j, near| {
-            if near {
-                found(j);
+        let position = self.position;
+        let own = [position[2 * i], position[2 * i + 1]];
+        self.rows(own, radius, |row| {
+            for &j in &self.sorted[row] {
+                let d = [position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]];
+                let [dx, dy] = self.space.shortest(d.map(One)).map(|d| d.0);
+                if j as usize != i && dx * dx + dy * dy < radius * radius {
+                    found(j);
+                }
             }
         });
     }
 
-    /// Calls `met(j, near)` for every point in the cells around point `i`, in that order, and says whether it is within `radius`.
+    /// Calls `row` for every row of the cells around a place, in that order, with where its points stand in `sorted`.
     #[inline(always)]
-    fn around(&self, i: usize, radius: T, mut met: impl FnMut(u32, bool)) {
-        let (position, grid, space) = (self.position, self.grid, self.space);
-        let own = [position[2 * i], position[2 * i + 1]];
-        let [cx, cy] = grid.cell_of(own.map(Real::to_f64));
+    fn rows(&self, place: [T; 2], radius: T, mut row: impl FnMut(Range<usize>)) {
+        let grid = self.grid;
+        let [cx, cy] = grid.cell_of(place.map(Real::to_f64));
         let [nx, ny] = grid.cells;
         let [left, columns] = grid.window(0, cx, radius.to_f64());
         let [bottom, rows] = grid.window(1, cy, radius.to_f64());
         let beyond = (left + columns).saturating_sub(nx);
         for y in bottom..bottom + rows {
-            let row = ((if y < ny { y } else { y - ny }) * nx) as usize;
-            for [from, to] in [[left, left + columns - beyond], [0, beyond]] {
-                let (first, last) = (self.start[row + from as usize], self.start[row + to as usize]);
-                for &j in &self.sorted[first as usize..last as usize] {
-                    let d = [position[2 * j as usize] - own[0], position[2 * j as usize + 1] - own[1]];
-                    let [dx, dy] = space.shortest(d.map(One)).map(|d| d.0);
-                    // No branch: which points are near follows no pattern.
-                    met(j, (j as usize != i) & (dx * dx + dy * dy < radius * radius));
-                }
+            let first = ((if y < ny { y } else { y - ny }) * nx) as usize;
+            let start = |column: u32| self.start[first + column as usize] as usize;
+            row(start(left)..start(left + columns - beyond));
+            if beyond > 0 {
+                row(start(0)..start(beyond));
             }
         }
+    }
+
+    /// The points in the order of the cells.
+    fn in_order(&self) -> InOrder<T> {
+        let sorted = &self.sorted[..self.points];
+        let along = |axis| sorted.iter().map(move |&j| self.position[2 * j as usize + axis]);
+        let rest = || std::iter::repeat_n(T::zero(), AT_ONCE);
+        let mut turn = vec![0; self.points];
+        for (k, &j) in (0..).zip(sorted) {
+            turn[j as usize] = k;
+        }
+        InOrder {
+            place: [along(0).chain(rest()).collect(), along(1).chain(rest()).collect()],
+            point: sorted.iter().copied().chain([0; AT_ONCE]).collect(),
+            turn,
+        }
+    }
+}
+
+/// Points that are looked at together.
+const AT_ONCE: usize = compact::WIDTH;
+
+/// Points in the order of the cells, and [`AT_ONCE`] more that are none.
+struct InOrder<T> {
+    /// x and y, m.
+    place: [Vec<T>; 2],
+    point: Vec<u32>,
+    /// Where each point stands.
+    turn: Vec<u32>,
+}
+
+impl<T: Real> InOrder<T> {
+    /// Which of the points from `first` on are nearer than the root of `square` to a place, a bit each.
+    #[inline(always)]
+    fn near<S: Space<T>>(&self, first: usize, space: S, [x, y]: [T::Pack; 2], square: T::Pack) -> u32 {
+        let mut near = 0;
+        unrolled!(pack < AT_ONCE => {
+            let k = pack * T::Pack::LANES;
+            if k < AT_ONCE {
+                let there = [T::Pack::load(&self.place[0][first + k..]), T::Pack::load(&self.place[1][first + k..])];
+                let [dx, dy] = space.shortest([there[0] - x, there[1] - y]);
+                near |= square.above(dx * dx + dy * dy) << k;
+            }
+        });
+        near
     }
 }
 
@@ -111,23 +160,33 @@ fn list<T: Real, S: Space<T>>(
     neighbours: &mut [u32],
     count: &mut [u32],
 ) -> usize {
-    let points = search.points;
+    let Search { position, points, space, .. } = search;
+    let order = search.in_order();
     blocks::for_each_2((neighbours, capacity), (&mut *count, 1), &|block, neighbours, count| {
+        let mut found = vec![0; capacity + AT_ONCE];
         for lane in 0..BLOCK {
             let i = block * BLOCK + lane;
-            let own = i.min(points - 1);
             let mut met = 0;
             if i < points {
-                search.around(i, radius(i), |j, near| {
-                    // One that is not near is written over by the next.
-                    if met < capacity {
-                        neighbours[met * BLOCK + lane] = j;
+                let (place, turn) = ([position[2 * i], position[2 * i + 1]], order.turn[i] as usize);
+                let from = [T::Pack::splat(place[0]), T::Pack::splat(place[1])];
+                let square = T::Pack::splat(radius(i) * radius(i));
+                search.rows(place, radius(i), |row| {
+                    let mut first = row.start;
+                    while first < row.end {
+                        let mut near = order.near(first, space, from, square);
+                        // Less those of the next row, and the point itself.
+                        near &= u32::MAX >> (u32::BITS as usize - AT_ONCE.min(row.end - first));
+                        near &= !1_u32.checked_shl(turn.wrapping_sub(first) as u32).unwrap_or(0);
+                        compact::write(&order.point[first..], near, &mut found[met.min(capacity)..]);
+                        met += near.count_ones() as usize;
+                        first += AT_ONCE;
                     }
-                    met += usize::from(near);
                 });
             }
-            for slot in met..capacity {
-                neighbours[slot * BLOCK + lane] = own as u32;
+            found[met.min(capacity)..].fill(i.min(points - 1) as u32);
+            for slot in 0..capacity {
+                neighbours[slot * BLOCK + lane] = found[slot];
             }
             count[lane] = met as u32;
         }
