@@ -115,10 +115,11 @@ fn the_cycle_is_linear_and_symmetric_and_positive() {
     let (cell, matrix) = (bench.indexes(Buffer::CoarseCell), bench.reals(Buffer::CoarseMatrix));
     let (start, sorted) = (bench.indexes(Buffer::CellStart(STANDING)), bench.indexes(Buffer::CellPoints(STANDING)));
     let levels = levels(&bench.scene.constants.grid);
-    let hierarchy = Gridded { grids: Grids { levels: &levels, start: &start, sorted: &sorted }, matrix: &matrix };
+    let grids = Grids { levels: &levels, start: &start, sorted: &sorted };
     let points = bench.scene.padded();
     let cycle = |r: &[f64]| -> (f64, Vec<f64>) {
         let mut vectors = Vectors::new(bench.scene.sizes.coarse);
+        let hierarchy = Gridded::new(grids, &matrix);
         let mut coarse = Coarse { hierarchy, cell: &cell, vectors: &mut vectors };
         let product = coarse.correct(r);
         let out = (0..points).map(|i| vectors.smoothed[cell[i] as usize]).collect();

@@ -152,7 +152,8 @@ impl<T: Real> CpuEngine<T> {
 
     fn coarse<'a>(&'a self, vectors: &'a mut coarse::Vectors<T>) -> Result<Coarse<'a, T, Gridded<'a, T>>, EngineError> {
         let (cell, matrix) = (self.fields.index(Buffer::CoarseCell)?, self.fields.real(Buffer::CoarseMatrix)?);
-        Ok(Coarse { hierarchy: Gridded { grids: self.grids()?, matrix }, cell, vectors })
+        vectors.clear();
+        Ok(Coarse { hierarchy: Gridded::new(self.grids()?, matrix), cell, vectors })
     }
 
     fn aggregated<'a>(

@@ -20,6 +20,7 @@ use crate::step::coarse::{AROUND, ENTRIES, Level};
 
 /// What the matrix of a coarser grid is divided by.
 pub const SCALE: f64 = 2.0;
+const TURNS: usize = 4;
 /// Share of a Jacobi step that is taken.
 pub const DAMPING: f64 = 0.8;
 
@@ -62,33 +63,39 @@ pub fn assemble<T: Real>(grids: Grids, lists: Lists, row: &[T], sign: T, cell: &
     let places = matrix.len() / ENTRIES;
     matrix.fill(T::zero());
     let stride = grids.levels[0].stride() as i64;
-    grids.for_each_cell(|place, points| {
-        let mut sums = [T::zero(); AROUND];
-        for &point in points.iter().filter(|&&point| cell[point as usize] != 0) {
-            let i = point as usize;
-            for slot in 0..(lists.count[i] as usize).min(lists.capacity) {
-                let at = blocks::at(i, slot, lists.capacity);
-                let other = cell[lists.neighbours[at] as usize];
-                let way = i64::from(other) - place as i64;
-                if way == 0 {
-                    continue;
-                }
-                let factor = sign * row[at];
-                sums[AROUND / 2] += factor;
-                if other != 0 {
-                    let up = i64::from(way > 1) - i64::from(way < -1);
-                    let entry = 3 * (up + 1) + (way - up * stride) + 1;
-                    sums[entry as usize] -= factor;
-                }
-            }
+    for (i, &place) in cell.iter().enumerate().filter(|&(_, &place)| place != 0) {
+        let mut own = T::zero();
+        // Sums in turn, so that an addition need not wait for the one before; what goes to where the pressure is held is taken from
+        // nobody, and stands behind the rest. No branch: which neighbours share the cell follows no pattern.
+        let mut sums = [[T::zero(); AROUND + 1]; TURNS];
+        for slot in 0..(lists.count[i] as usize).min(lists.capacity) {
+            let at = blocks::at(i, slot, lists.capacity);
+            let other = cell[lists.neighbours[at] as usize];
+            let way = i64::from(other) - i64::from(place);
+            let factor = [T::zero(), sign][usize::from(way != 0)] * row[at];
+            let up = i64::from(way > 1) - i64::from(way < -1);
+            let entry = 3 * (up + 1) + (way - up * stride) + 1;
+            own += factor;
+            sums[slot % TURNS][if other == 0 { AROUND } else { entry as usize }] -= factor;
         }
-        store(matrix, places, place, sums);
-    });
+        for entry in 0..AROUND {
+            let sum = if entry == AROUND / 2 { own } else { sums.iter().map(|sums| sums[entry]).sum() };
+            matrix[entry * places + place as usize] += sum;
+        }
+    }
+    for row in 0..grids.levels[0].rows {
+        let level = grids.levels[0];
+        (level.at(0, row)..level.at(level.columns, row)).for_each(|place| set_smoothing(matrix, places, place));
+    }
     for pair in grids.levels.windows(2) {
         let (fine, coarse) = (pair[0], pair[1]);
         for row in 0..coarse.rows {
             for column in 0..coarse.columns {
                 let mut sums = [T::zero(); AROUND];
+                let own = |(x, y): (usize, usize)| matrix[AROUND / 2 * places + fine.at(x, y)];
+                if children(fine, column, row).all(|child| own(child) == T::zero()) {
+                    continue;
+                }
                 for (x, y) in children(fine, column, row) {
                     for entry in 0..AROUND {
                         // Where the cell beyond lies, seen from the coarse one.
@@ -97,7 +104,11 @@ pub fn assemble<T: Real>(grids: Grids, lists: Lists, row: &[T], sign: T, cell: &
                         sums[to] += matrix[entry * places + fine.at(x, y)];
                     }
                 }
-                store(matrix, places, coarse.at(column, row), sums.map(|sum| sum * T::from_f64(1.0 / SCALE)));
+                let place = coarse.at(column, row);
+                for (entry, sum) in sums.into_iter().enumerate() {
+                    matrix[entry * places + place] = sum * T::from_f64(1.0 / SCALE);
+                }
+                set_smoothing(matrix, places, place);
             }
         }
     }
@@ -110,11 +121,9 @@ fn children(fine: Level, column: usize, row: usize) -> impl Iterator<Item = (usi
     span(row, fine.rows).flat_map(move |y| columns.clone().map(move |x| (x, y)))
 }
 
-fn store<T: Real>(matrix: &mut [T], places: usize, place: usize, sums: [T; AROUND]) {
-    for (entry, sum) in sums.into_iter().enumerate() {
-        matrix[entry * places + place] = sum;
-    }
-    let own = sums[AROUND / 2];
+/// What a smoothing step multiplies with at a cell: nothing where there is no row.
+fn set_smoothing<T: Real>(matrix: &mut [T], places: usize, place: usize) {
+    let own = matrix[AROUND / 2 * places + place];
     matrix[AROUND * places + place] = if own == T::zero() { own } else { T::from_f64(DAMPING) / own };
 }
 
@@ -158,6 +167,11 @@ impl<T: Real> Vectors<T> {
     pub fn new(places: usize) -> Self {
         let zeros = vec![T::zero(); places];
         Self { right: zeros.clone(), value: zeros.clone(), smoothed: zeros }
+    }
+
+    /// All zero again: a cycle leaves out places that have no row in the matrix.
+    pub fn clear(&mut self) {
+        [&mut self.right, &mut self.value, &mut self.smoothed].into_iter().for_each(|vector| vector.fill(T::zero()));
     }
 }
 
@@ -237,14 +251,29 @@ impl<T: Real, H: Hierarchy<T>> Correction<T> for Coarse<'_, T, H> {
     }
 }
 
-/// Cells of a grid, and the matrix over them.
-#[derive(Clone, Copy)]
+/// Cells of grids, and the matrix over them.
+#[derive(Clone)]
 pub struct Gridded<'a, T> {
-    pub grids: Grids<'a>,
-    pub matrix: &'a [T],
+    grids: Grids<'a>,
+    matrix: &'a [T],
+    /// The columns of each row that lie between the first cell and the last that have a row in the matrix; level by level.
+    wet: Vec<Vec<Range<usize>>>,
 }
 
-impl<T: Real> Gridded<'_, T> {
+impl<'a, T: Real> Gridded<'a, T> {
+    pub fn new(grids: Grids<'a>, matrix: &'a [T]) -> Self {
+        let smoothing = &matrix[matrix.len() / ENTRIES * AROUND..];
+        let wet = |level: &Level| {
+            let row = |row| {
+                let has_row = |column: &usize| smoothing[level.at(*column, row)] != T::zero();
+                let first = (0..level.columns).find(has_row).unwrap_or(0);
+                first..(first..level.columns).rfind(has_row).map_or(first, |last| last + 1)
+            };
+            (0..level.rows).map(row).collect()
+        };
+        Self { grids, matrix, wet: grids.levels.iter().map(wet).collect() }
+    }
+
     fn places(&self) -> usize {
         self.matrix.len() / ENTRIES
     }
@@ -256,8 +285,9 @@ impl<T: Real> Hierarchy<T> for Gridded<'_, T> {
     }
 
     fn ranges(&self, level: usize) -> impl Iterator<Item = Range<usize>> {
-        let level = self.grids.levels[level];
-        (0..level.rows).map(move |row| level.at(0, row)..level.at(level.columns, row))
+        let grid = self.grids.levels[level];
+        let rows = self.wet[level].iter().enumerate();
+        rows.map(move |(row, wet)| grid.at(wet.start, row)..grid.at(wet.end, row))
     }
 
     fn smoothing(&self) -> &[T] {
@@ -286,8 +316,8 @@ impl<T: Real> Hierarchy<T> for Gridded<'_, T> {
 
     fn sum_up(&self, level: usize, left: &[T], right: &mut [T]) {
         let (fine, coarse) = (self.grids.levels[level], self.grids.levels[level + 1]);
-        for row in 0..coarse.rows {
-            for column in 0..coarse.columns {
+        for (row, wet) in self.wet[level + 1].iter().enumerate() {
+            for column in wet.clone() {
                 let left = children(fine, column, row).map(|(x, y)| left[fine.at(x, y)]);
                 right[coarse.at(column, row)] = left.fold(T::zero(), |sum, left| sum + left);
             }
@@ -296,8 +326,8 @@ impl<T: Real> Hierarchy<T> for Gridded<'_, T> {
 
     fn bring_down(&self, level: usize, above: &[T], value: &mut [T]) {
         let (fine, coarse) = (self.grids.levels[level], self.grids.levels[level + 1]);
-        for row in 0..fine.rows {
-            for column in 0..fine.columns {
+        for (row, wet) in self.wet[level].iter().enumerate() {
+            for column in wet.clone() {
                 value[fine.at(column, row)] += above[coarse.at(column / 2, row / 2)];
             }
         }
