@@ -5,8 +5,9 @@
 //! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992);
 //! preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section 7.4.2.
 
-use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::blocks;
 use crate::cpu::operations::coarse::Correction;
+use crate::cpu::operations::lists::{ABREAST, abreast};
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -163,11 +164,9 @@ fn shifted_product<T: Real, C: Correction<T>>(
     });
     let constant = shift.of::<T>(sum, points);
     let [] = blocks::sum_over([out], &|start, [q]| {
-        for first in (0..q.len()).step_by(BLOCK) {
-            matrix.block_of_products((start + first) / BLOCK, scaled, &mut q[first..]);
-            for k in (first..first + BLOCK).step_by(T::Pack::LANES) {
-                let i = start + k;
-                within::<T>(load(q, k) + within::<T>(constant, i, shift.rows), i, points).store(&mut q[k..]);
+        for first in (start..start + q.len()).step_by(ABREAST) {
+            for (i, product) in abreast::<T>(first).zip(matrix.products(first, scaled)) {
+                within::<T>(product + within::<T>(constant, i, shift.rows), i, points).store(&mut q[i - start..]);
             }
         }
         []

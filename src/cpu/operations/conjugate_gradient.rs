@@ -6,8 +6,9 @@
 //! Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 //! algorithm 9.1.
 
-use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::blocks;
 use crate::cpu::operations::coarse::Correction;
+use crate::cpu::operations::lists::{ABREAST, abreast};
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -75,10 +76,10 @@ pub fn solve<T: Real, C: Correction<T>>(
         loop {
             let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
-                for first in (0..q.len()).step_by(BLOCK) {
-                    matrix.block_of_products((start + first) / BLOCK, direction, &mut q[first..]);
-                    for k in (first..first + BLOCK).step_by(T::Pack::LANES) {
-                        dq += T::Pack::load(&q[k..]) * T::Pack::load(&direction[start + k..]);
+                for first in (start..start + q.len()).step_by(ABREAST) {
+                    for (i, value) in abreast::<T>(first).zip(matrix.products(first, direction)) {
+                        value.store(&mut q[i - start..]);
+                        dq += value * T::Pack::load(&direction[i..]);
                     }
                 }
                 [lanes::<T>(dq)]

@@ -6,6 +6,7 @@
 //! The matrix is symmetric, its off-diagonal entries are not positive, and its null space is exactly the constants.
 
 use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::operations::lists::{ABREAST, Lists, abreast};
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
@@ -102,22 +103,19 @@ pub struct Fluxes<'a, T> {
 
 /// `scale sum_k r_ik . u_k`: the volume flux out of every cell, m^2/s, times `scale`, the velocity fitted on its faces.
 pub fn divergence_by_fit<T: Real>(fluxes: Fluxes<T>, velocity: &[T], scale: T, out: &mut [T]) {
-    let Fluxes { points, count, row, capacity } = fluxes;
+    let Fluxes { points: neighbours, count, row, capacity } = fluxes;
+    let lists = Lists { neighbours, count, capacity };
     let scale = T::Pack::splat(scale);
     blocks::for_each(out, 1, &|block, out| {
-        for first in (0..BLOCK).step_by(T::Pack::LANES) {
-            let i = block * BLOCK + first;
-            let used = count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0) as usize;
-            let mut sum = T::Pack::zero();
-            for slot in 0..used.min(capacity) {
-                let index = &points[blocks::at(i, slot, capacity)..];
+        for first in (0..BLOCK).step_by(ABREAST) {
+            let sums = lists.fold(block * BLOCK + first, row, T::Pack::zero(), |sum, _, index, [x, y]| {
                 // SAFETY: every stored point is below the number of points.
                 let [u, v] = unsafe { T::Pack::gather_vectors(velocity, index) };
-                let [x, y] =
-                    [slot, capacity + slot].map(|slot| T::Pack::load(&row[blocks::at(i, slot, 2 * capacity)..]));
-                sum = y.mul_add(v, x.mul_add(u, sum));
+                y.mul_add(v, x.mul_add(u, sum))
+            });
+            for (k, sum) in abreast::<T>(first).zip(sums) {
+                (scale * sum).store(&mut out[k..]);
             }
-            (scale * sum).store(&mut out[first..]);
         }
     });
 }

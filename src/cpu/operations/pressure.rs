@@ -1,6 +1,7 @@
 //! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
 
-use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::blocks;
+use crate::cpu::operations::lists::{PACKS, abreast};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
 
@@ -9,12 +10,14 @@ pub trait Rows<T: Real>: Sync {
     /// `(A p)_i` for the points `i..i + LANES`.
     fn product(&self, i: usize, p: &[T]) -> T::Pack;
 
-    /// The same, to the last bit, for all points of a block.
+    /// The same, to the last bit, for the points `i..i + ABREAST`.
     #[inline(always)]
-    fn block_of_products(&self, block: usize, p: &[T], out: &mut [T]) {
-        for k in (0..BLOCK).step_by(T::Pack::LANES) {
-            self.product(block * BLOCK + k, p).store(&mut out[k..]);
+    fn products(&self, i: usize, p: &[T]) -> [T::Pack; PACKS] {
+        let mut products = [T::Pack::zero(); PACKS];
+        for (product, i) in products.iter_mut().zip(abreast::<T>(i)) {
+            *product = self.product(i, p);
         }
+        products
     }
 
     /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the

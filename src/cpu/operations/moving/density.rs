@@ -9,7 +9,7 @@
 use super::mirror::{Around, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::integral::{DIMENSIONS, Lattice, weight};
-use crate::cpu::operations::lists::Lists;
+use crate::cpu::operations::lists::{Lists, PACKS, abreast};
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
 
@@ -34,13 +34,12 @@ impl<T: Real> Rows<T> for Symmetric<'_, T> {
     }
 
     #[inline(always)]
-    fn block_of_products(&self, block: usize, p: &[T], out: &mut [T]) {
-        self.lists.block_of_differences(block, self.row, p, out);
-        for k in (0..BLOCK).step_by(T::Pack::LANES) {
-            let pressured = block * BLOCK + k < self.pressured;
-            let value = if pressured { -T::Pack::load(&out[k..]) } else { T::Pack::zero() };
-            value.store(&mut out[k..]);
+    fn products(&self, i: usize, p: &[T]) -> [T::Pack; PACKS] {
+        let mut sums = self.lists.differences_abreast(i, self.row, p);
+        for (sum, i) in sums.iter_mut().zip(abreast::<T>(i)) {
+            *sum = if i < self.pressured { -*sum } else { T::Pack::zero() };
         }
+        sums
     }
 
     #[inline(always)]
