@@ -21,6 +21,10 @@ use crate::step::coarse::{AROUND, ENTRIES, Level};
 /// What the matrix of a coarser grid is divided by.
 pub const SCALE: f64 = 2.0;
 const TURNS: usize = 4;
+/// Number of the sum over neighbours that have a factor, but no entry.
+const BEYOND: u8 = AROUND as u8;
+/// Sums of a row, with room to a power of two.
+const SUMS: usize = 16;
 /// Share of a Jacobi step that is taken.
 pub const DAMPING: f64 = 0.8;
 
@@ -62,26 +66,31 @@ pub fn place(grids: Grids, surface: &[u32], pressured: usize, cell: &mut [u32]) 
 pub fn assemble<T: Real>(grids: Grids, lists: Lists, row: &[T], sign: T, cell: &[u32], matrix: &mut [T]) {
     let places = matrix.len() / ENTRIES;
     matrix.fill(T::zero());
-    let stride = grids.levels[0].stride() as i64;
+    let stride = grids.levels[0].stride();
+    // Which sum the neighbours in a place belong to, by how far it is behind the lowest around a cell, and 1. Those in the cell itself
+    // have one to themselves, and those whose pressure is held another, at 0.
+    let mut number = vec![BEYOND; 2 * stride + 4];
+    for (entry, (up, along)) in (0..AROUND as u8).zip((0..3).flat_map(|up| (0..3).map(move |along| (up, along)))) {
+        number[up * stride + along + 1] = entry;
+    }
     for (i, &place) in cell.iter().enumerate().filter(|&(_, &place)| place != 0) {
-        let mut own = T::zero();
-        // Sums in turn, so that an addition need not wait for the one before; what goes to where the pressure is held is taken from
-        // nobody, and stands behind the rest. No branch: which neighbours share the cell follows no pattern.
-        let mut sums = [[T::zero(); AROUND + 1]; TURNS];
+        // In turn, so that an addition need not wait for the one before.
+        let mut sums = [[T::zero(); SUMS]; TURNS];
         for slot in 0..(lists.count[i] as usize).min(lists.capacity) {
             let at = blocks::at(i, slot, lists.capacity);
-            let other = cell[lists.neighbours[at] as usize];
-            let way = i64::from(other) - i64::from(place);
-            let factor = [T::zero(), sign][usize::from(way != 0)] * row[at];
-            let up = i64::from(way > 1) - i64::from(way < -1);
-            let entry = 3 * (up + 1) + (way - up * stride) + 1;
-            own += factor;
-            sums[slot % TURNS][if other == 0 { AROUND } else { entry as usize }] -= factor;
+            let other = cell[lists.neighbours[at] as usize] as usize;
+            // No branch: which neighbours share a cell follows no pattern.
+            let way = if other == 0 { 0 } else { other + stride + 2 - place as usize };
+            sums[slot % TURNS][number[way] as usize % SUMS] += row[at];
         }
-        for entry in 0..AROUND {
-            let sum = if entry == AROUND / 2 { own } else { sums.iter().map(|sums| sums[entry]).sum() };
-            matrix[entry * places + place as usize] += sum;
+        let sum = |entry: usize| -> T { sums.iter().map(|sums| sums[entry]).sum() };
+        let mut own = sum(BEYOND as usize);
+        for entry in (0..AROUND).filter(|&entry| entry != AROUND / 2) {
+            let sum = sum(entry);
+            own += sum;
+            matrix[entry * places + place as usize] -= sign * sum;
         }
+        matrix[AROUND / 2 * places + place as usize] += sign * own;
     }
     for row in 0..grids.levels[0].rows {
         let level = grids.levels[0];

@@ -24,6 +24,7 @@ pub const SPREAD: f64 = 0.01;
 /// Forms and factorises the normal matrices; `rung` says how far each was lowered. Points of the surface, whose
 /// neighbours are all on one side, have a linear fit; those whose neighbours stand in a line have none.
 pub fn factorise<T: Real>(around: Around<T>, weight: Weight, surface: &[u32], factor: &mut [T], rung: &mut [u32]) {
+    let one = T::from_f64(1.0);
     blocks::for_each_2((factor, F), (rung, 1), &|block, factor, rung| {
         for first in (0..BLOCK).step_by(T::Pack::LANES) {
             let mut sums = Moments::<T::Pack, M>::zero();
@@ -33,25 +34,26 @@ pub fn factorise<T: Real>(around: Around<T>, weight: Weight, surface: &[u32], fa
             });
             let matrix = sums.matrix::<F>();
             let (entries, pivots): (_, [T::Pack; N]) = moments::factorise(matrix);
-            for (k, entry) in entries.into_iter().enumerate() {
-                entry.store(&mut factor[k * BLOCK + first..]);
-            }
             let [full, linear] = [moments::least(&pivots), moments::least(&pivots[..moments::coefficients(1)])];
+            let inside =
+                T::Pack::from_lanes(|lane| if surface[block * BLOCK + first + lane] == 0 { one } else { T::zero() });
+            let (along_x, along_y) = (matrix[0], matrix[2]);
+            let spread = linear * along_x.min(along_y);
+            let least = T::Pack::splat(T::from_f64(SPREAD)) * along_x.max(along_y);
+            let (yes, no) = (T::Pack::splat(one), T::Pack::zero());
+            let is_full = (inside * full).select_above(T::Pack::splat(T::from_f64(PIVOT)), yes, no);
+            let is_linear = is_full.max(spread.select_above(least, yes, no));
+            for (k, entry) in entries.into_iter().enumerate() {
+                let kept = if k < moments::entries(moments::coefficients(1)) { is_linear } else { is_full };
+                kept.select_above(no, entry, no).store(&mut factor[k * BLOCK + first..]);
+            }
+            let (is_full, is_linear) = (is_full.above(no), is_linear.above(no));
             for lane in 0..T::Pack::LANES {
-                let free = surface[block * BLOCK + first + lane] != 0;
-                let (along_x, along_y) = (matrix[0].lane(lane), matrix[2].lane(lane));
-                let spread = linear.lane(lane) * along_x.min(along_y);
-                let (step, kept) = if !free && full.lane(lane) > T::from_f64(PIVOT) {
-                    (0, N)
-                } else if spread > T::from_f64(SPREAD) * along_x.max(along_y) {
-                    (Rung::LINEAR, moments::coefficients(1))
-                } else {
-                    (Rung::NEAREST, 0)
+                rung[first + lane] = match (is_full >> lane & 1, is_linear >> lane & 1) {
+                    (1, _) => 0,
+                    (_, 1) => Rung::LINEAR,
+                    _ => Rung::NEAREST,
                 };
-                rung[first + lane] = step;
-                for k in moments::entries(kept)..F {
-                    factor[k * BLOCK + first + lane] = T::zero();
-                }
             }
         }
     });
