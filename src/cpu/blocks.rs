@@ -36,13 +36,7 @@ pub fn at(point: usize, slot: usize, slots: usize) -> usize {
 /// First points of the packs of a block that hold a point below `end`.
 #[inline(always)]
 pub fn packs<T: Real>(block: usize, end: usize) -> impl Iterator<Item = usize> {
-    groups(block, T::Pack::LANES, end)
-}
-
-/// First points of the groups of `width` points of a block that hold a point below `end`.
-#[inline(always)]
-pub fn groups(block: usize, width: usize, end: usize) -> impl Iterator<Item = usize> {
-    (block * BLOCK..((block + 1) * BLOCK).min(end)).step_by(width)
+    (block * BLOCK..((block + 1) * BLOCK).min(end)).step_by(T::Pack::LANES)
 }
 
 /// Adds to the interleaved vectors of points `i..` in `out`, whose first vector is that of point `start`, as far as `end`.

@@ -5,9 +5,8 @@
 //! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992);
 //! preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section 7.4.2.
 
-use crate::cpu::blocks;
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::coarse::Correction;
-use crate::cpu::operations::lists::{ABREAST, abreast};
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -164,8 +163,8 @@ fn shifted_product<T: Real, C: Correction<T>>(
     });
     let constant = shift.of::<T>(sum, points);
     let [] = blocks::sum_over([out], &|start, [q]| {
-        for first in (start..start + q.len()).step_by(ABREAST) {
-            for (i, product) in abreast::<T>(first).zip(matrix.products(first, scaled)) {
+        for block in start / BLOCK..(start + q.len()) / BLOCK {
+            for (i, product) in blocks::packs::<T>(block, usize::MAX).zip(matrix.products(block, scaled)) {
                 within::<T>(product + within::<T>(constant, i, shift.rows), i, points).store(&mut q[i - start..]);
             }
         }

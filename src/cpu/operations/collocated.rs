@@ -10,7 +10,7 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::derivative::Gradient;
-use crate::cpu::operations::lists::{ABREAST, Lists, PACKS, abreast};
+use crate::cpu::operations::lists::{Lists, PACKS};
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
 
@@ -28,8 +28,8 @@ impl<T: Real> Rows<T> for Collocated<'_, T> {
     }
 
     #[inline(always)]
-    fn products(&self, i: usize, p: &[T]) -> [T::Pack; PACKS] {
-        self.lists.differences_abreast(i, self.row, p)
+    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
+        self.lists.block_of_differences(block, self.row, p)
     }
 
     #[inline(always)]
@@ -112,10 +112,10 @@ pub fn source<T: Real>(
     source: &mut [T],
 ) {
     blocks::for_each(source, 1, &|block, out| {
-        for first in blocks::groups(block, ABREAST, interior) {
-            for (i, divergence) in abreast::<T>(first).zip(gradient.divergence(first, predicted)) {
+        if block * BLOCK < interior {
+            for (i, divergence) in blocks::packs::<T>(block, interior).zip(gradient.divergence(block, predicted)) {
                 let value = T::Pack::splat(density_per_dt) * divergence;
-                for lane in 0..T::Pack::LANES.min(interior.saturating_sub(i)) {
+                for lane in 0..T::Pack::LANES.min(interior - i) {
                     out[i - block * BLOCK + lane] = value.lane(lane);
                 }
             }

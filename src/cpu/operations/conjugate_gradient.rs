@@ -6,9 +6,8 @@
 //! Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 //! algorithm 9.1.
 
-use crate::cpu::blocks;
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::coarse::Correction;
-use crate::cpu::operations::lists::{ABREAST, abreast};
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
@@ -76,8 +75,8 @@ pub fn solve<T: Real, C: Correction<T>>(
         loop {
             let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
-                for first in (start..start + q.len()).step_by(ABREAST) {
-                    for (i, value) in abreast::<T>(first).zip(matrix.products(first, direction)) {
+                for block in start / BLOCK..(start + q.len()) / BLOCK {
+                    for (i, value) in blocks::packs::<T>(block, usize::MAX).zip(matrix.products(block, direction)) {
                         value.store(&mut q[i - start..]);
                         dq += value * T::Pack::load(&direction[i..]);
                     }

@@ -6,7 +6,7 @@
 //! The matrix is symmetric, its off-diagonal entries are not positive, and its null space is exactly the constants.
 
 use crate::cpu::blocks::{self, BLOCK};
-use crate::cpu::operations::lists::{ABREAST, Lists, abreast};
+use crate::cpu::operations::lists::{Lists, PACKS, own};
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::operations::space::Space;
 use crate::cpu::real::{Pack, Real};
@@ -52,6 +52,16 @@ impl<T: Real> Rows<T> for Conservative<'_, T> {
             sum += weight * (own - unsafe { T::Pack::gather(p, index) });
         });
         sum
+    }
+
+    #[inline(always)]
+    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
+        let Faces { neighbours, weight, count, capacity } = self.faces;
+        let own = own(p, block);
+        Lists { neighbours, count, capacity }.fold(block, weight, T::Pack::zero(), |sum, pack, index, [weight]| {
+            // SAFETY: every stored face neighbour is below the number of points.
+            sum + weight * (own[pack] - unsafe { T::Pack::gather(p, index) })
+        })
     }
 
     #[inline(always)]
@@ -107,15 +117,13 @@ pub fn divergence_by_fit<T: Real>(fluxes: Fluxes<T>, velocity: &[T], scale: T, o
     let lists = Lists { neighbours, count, capacity };
     let scale = T::Pack::splat(scale);
     blocks::for_each(out, 1, &|block, out| {
-        for first in (0..BLOCK).step_by(ABREAST) {
-            let sums = lists.fold(block * BLOCK + first, row, T::Pack::zero(), |sum, _, index, [x, y]| {
-                // SAFETY: every stored point is below the number of points.
-                let [u, v] = unsafe { T::Pack::gather_vectors(velocity, index) };
-                y.mul_add(v, x.mul_add(u, sum))
-            });
-            for (k, sum) in abreast::<T>(first).zip(sums) {
-                (scale * sum).store(&mut out[k..]);
-            }
+        let sums = lists.fold(block, row, T::Pack::zero(), |sum, _, index, [x, y]| {
+            // SAFETY: every stored point is below the number of points.
+            let [u, v] = unsafe { T::Pack::gather_vectors(velocity, index) };
+            y.mul_add(v, x.mul_add(u, sum))
+        });
+        for (k, sum) in (0..BLOCK).step_by(T::Pack::LANES).zip(sums) {
+            (scale * sum).store(&mut out[k..]);
         }
     });
 }

@@ -30,10 +30,9 @@ pub fn factorise<T: Real, S: Space<T>, const N: usize, const F: usize, const M: 
             for (k, entry) in entries.into_iter().enumerate() {
                 entry.store(&mut factor[k * BLOCK + first..]);
             }
-            let least = moments::least(&pivots);
+            let passed = moments::least(&pivots).above(T::Pack::splat(T::from_f64(PIVOT_THRESHOLD)));
             for lane in 0..T::Pack::LANES {
-                let passed = least.lane(lane) > T::from_f64(PIVOT_THRESHOLD);
-                rung[first + lane] = if passed { 0 } else { Rung::FAILED };
+                rung[first + lane] = if passed >> lane & 1 != 0 { 0 } else { Rung::FAILED };
             }
         }
     });

@@ -38,46 +38,45 @@ impl Lists<'_> {
         sum
     }
 
-    /// The same, to the last bit, for the points `i..i + ABREAST`.
+    /// The same, to the last bit, for the points of a block.
     #[inline(always)]
-    pub fn differences_abreast<T: Real>(&self, i: usize, row: &[T], p: &[T]) -> [T::Pack; PACKS] {
-        let own = own(p, i);
-        self.fold(i, row, T::Pack::zero(), |sum, pack, index, [factor]| {
+    pub fn block_of_differences<T: Real>(&self, block: usize, row: &[T], p: &[T]) -> [T::Pack; PACKS] {
+        let own = own(p, block);
+        self.fold(block, row, T::Pack::zero(), |sum, pack, index, [factor]| {
             // SAFETY: every stored neighbour is below the number of points.
             sum + factor * (unsafe { T::Pack::gather(p, index) } - own[pack])
         })
     }
 
-    /// Folds `term(sum, pack, indexes, factors)` over the slots of the points `i..i + ABREAST`, from `start` on: a sum for each pack of them,
-    /// those of [`abreast`]. The packs go side by side, as their entries stand in memory. Of `E` factors a slot, blocked, `row` has those of
-    /// all slots one after the other.
+    /// Folds `term(sum, pack, indexes, factors)` over the slots of the points of a block, from `start` on: a sum for each of its packs,
+    /// which go side by side, as their entries stand in memory. Of `E` factors a slot, blocked, `row` has those of all slots one after
+    /// the other.
     #[inline(always)]
     pub fn fold<T: Real, A: Copy, const E: usize>(
         &self,
-        i: usize,
+        block: usize,
         row: &[T],
         start: A,
         term: impl Fn(A, usize, &[u32], [T::Pack; E]) -> A,
     ) -> [A; PACKS] {
         let mut slots = [0; PACKS];
-        for (slots, k) in slots.iter_mut().zip(abreast::<T>(i)) {
-            let most = self.count[k..k + T::Pack::LANES].iter().copied().max().unwrap_or(0);
-            *slots = (most as usize).min(self.capacity);
+        let counts = self.count[block * BLOCK..][..BLOCK].chunks_exact(T::Pack::LANES);
+        for (slots, counts) in slots.iter_mut().zip(counts) {
+            *slots = (counts.iter().copied().max().unwrap_or(0) as usize).min(self.capacity);
         }
-        let (block, within, width) = (i / BLOCK, i % BLOCK, self.capacity * BLOCK);
+        let width = self.capacity * BLOCK;
         let neighbours = &self.neighbours[block * width..][..width];
         let row = &row[E * block * width..][..E * width];
         let term = |sum: A, pack: usize, slot: usize| {
-            let at = slot * BLOCK + within;
-            let index = &neighbours[at..at + ABREAST];
-            let k = pack * T::Pack::LANES;
+            let (at, k) = (slot * BLOCK, pack * T::Pack::LANES);
+            let index = &neighbours[at..at + BLOCK];
             let mut factors = [T::Pack::zero(); E];
             for (e, factor) in factors.iter_mut().enumerate() {
-                *factor = T::Pack::load(&row[e * width + at..][..ABREAST][k..]);
+                *factor = T::Pack::load(&row[e * width + at..][..BLOCK][k..]);
             }
             term(sum, pack, &index[k..k + T::Pack::LANES], factors)
         };
-        let packs = ABREAST / T::Pack::LANES;
+        let packs = BLOCK / T::Pack::LANES;
         let mut sums = [start; PACKS];
         // What all have, then what some have more.
         let common = slots[..packs].iter().copied().min().unwrap_or(0);
@@ -97,11 +96,14 @@ impl Lists<'_> {
     }
 }
 
-/// The values at the points `i..i + ABREAST`, pack by pack.
+/// Most packs of a block: of `f64`.
+pub const PACKS: usize = BLOCK / 4;
+
+/// The values at the points of a block, pack by pack.
 #[inline(always)]
-pub fn own<T: Real>(field: &[T], i: usize) -> [T::Pack; PACKS] {
+pub fn own<T: Real>(field: &[T], block: usize) -> [T::Pack; PACKS] {
     let mut own = [T::Pack::zero(); PACKS];
-    for (own, i) in own.iter_mut().zip(abreast::<T>(i)) {
+    for (own, i) in own.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
         *own = T::Pack::load(&field[i..]);
     }
     own
@@ -109,21 +111,10 @@ pub fn own<T: Real>(field: &[T], i: usize) -> [T::Pack; PACKS] {
 
 /// The same of interleaved vectors.
 #[inline(always)]
-pub fn own_vectors<T: Real>(field: &[T], i: usize) -> [[T::Pack; 2]; PACKS] {
+pub fn own_vectors<T: Real>(field: &[T], block: usize) -> [[T::Pack; 2]; PACKS] {
     let mut own = [[T::Pack::zero(); 2]; PACKS];
-    for (own, i) in own.iter_mut().zip(abreast::<T>(i)) {
+    for (own, i) in own.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
         *own = T::Pack::load_vectors(&field[2 * i..]);
     }
     own
-}
-
-/// Points whose neighbours are gone through side by side: their entries of a slot fill whole lines of the cache.
-pub const ABREAST: usize = 16;
-/// Most packs of them: of `f64`.
-pub const PACKS: usize = ABREAST / 4;
-
-/// First points of the packs of the points `i..i + ABREAST`.
-#[inline(always)]
-pub fn abreast<T: Real>(i: usize) -> impl Iterator<Item = usize> {
-    (i..i + ABREAST).step_by(T::Pack::LANES)
 }

@@ -1,7 +1,7 @@
 //! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
 
 use crate::cpu::blocks;
-use crate::cpu::operations::lists::{PACKS, abreast};
+use crate::cpu::operations::lists::PACKS;
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
 
@@ -10,11 +10,11 @@ pub trait Rows<T: Real>: Sync {
     /// `(A p)_i` for the points `i..i + LANES`.
     fn product(&self, i: usize, p: &[T]) -> T::Pack;
 
-    /// The same, to the last bit, for the points `i..i + ABREAST`.
+    /// The same, to the last bit, for the points of a block.
     #[inline(always)]
-    fn products(&self, i: usize, p: &[T]) -> [T::Pack; PACKS] {
+    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
         let mut products = [T::Pack::zero(); PACKS];
-        for (product, i) in products.iter_mut().zip(abreast::<T>(i)) {
+        for (product, i) in products.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
             *product = self.product(i, p);
         }
         products

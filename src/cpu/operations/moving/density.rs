@@ -9,7 +9,7 @@
 use super::mirror::{Around, Stencil};
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::integral::{DIMENSIONS, Lattice, weight};
-use crate::cpu::operations::lists::{Lists, PACKS, abreast};
+use crate::cpu::operations::lists::{Lists, PACKS};
 use crate::cpu::operations::pressure::Rows;
 use crate::cpu::real::{Pack, Real};
 
@@ -34,9 +34,9 @@ impl<T: Real> Rows<T> for Symmetric<'_, T> {
     }
 
     #[inline(always)]
-    fn products(&self, i: usize, p: &[T]) -> [T::Pack; PACKS] {
-        let mut sums = self.lists.differences_abreast(i, self.row, p);
-        for (sum, i) in sums.iter_mut().zip(abreast::<T>(i)) {
+    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
+        let mut sums = self.lists.block_of_differences(block, self.row, p);
+        for (sum, i) in sums.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
             *sum = if i < self.pressured { -*sum } else { T::Pack::zero() };
         }
         sums
