@@ -1,5 +1,5 @@
-// Shortens the way dt (u' - u*) that the pressure moves a point to LONGEST_PUSH spacings, and the change of velocity with it; counts
-// the steps in which it did. m, m/s.
+// Shortens the way dt (u' - u*) that the pressure moves a point to LONGEST_PUSH spacings, less in short steps, and the change of velocity
+// with it; counts the steps in which it did. m, m/s.
 
 #import points
 
@@ -9,10 +9,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if i >= INTERIOR {
         return;
     }
-    let way = displacement[i] / SPACING;
-    let length = sqrt(dot(way, way));
-    if length > LONGEST_PUSH {
-        let less = (LONGEST_PUSH / length - real(1.0)) * displacement[i];
+    let longest = clock[CLOCK_SHARE] * clock[CLOCK_SHARE] * LONGEST_PUSH * SPACING;
+    let length = sqrt(dot(displacement[i], displacement[i]));
+    if length > longest {
+        let less = (longest / length - real(1.0)) * displacement[i];
         displacement[i] += less;
         projected[i] += less / clock[CLOCK_DT];
         bounded[i] += 1u;

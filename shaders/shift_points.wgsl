@@ -54,7 +54,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if length > SHIFT_LONGEST {
         delta *= SHIFT_LONGEST / length;
     }
-    delta *= SPACING;
+    delta *= clock[CLOCK_SHARE] * SPACING;
     projected[i] += along(stored_fit(i), monomials(delta / RADIUS));
     displacement[i] += delta;
 }

@@ -40,6 +40,9 @@ pub struct Clock {
     pub kick: f64,
     /// Second half of the kick over the first; 1 unless dt changes. 0 makes a first half kick alone.
     pub second_kick: f64,
+    /// Share of what a step of the usual length does to keep points that move evenly spread: of the shift and of the density term, and,
+    /// squared, of the longest push of the pressure. 1, but less in steps that are shorter: what is done in a second does not depend on them.
+    pub share: f64,
 }
 
 /// Who computes.

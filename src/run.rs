@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::case::{Case, Measure, Problem, Profile, ReferenceError};
+use crate::case::{Case, Measure, Motion, Problem, Profile, ReferenceError};
 use crate::comparison::{self, ComparisonError};
 use crate::engine::{Engine, EngineError, EngineInfo};
 use crate::known::Known;
@@ -124,7 +124,7 @@ fn finish(mut writer: Recorder<'_>, outcome: Outcome, prepared: Instant) -> Resu
     if matches!(outcome.stop, Stop::End | Stop::Steady) {
         folder.remove_checkpoint()?;
     }
-    Ok(Report { trouble: trouble(&outcome), summary })
+    Ok(Report { trouble: trouble(&outcome, scene.case.motion() == Motion::Shifted), summary })
 }
 
 /// Draws the pictures of a run that is over from its files.
@@ -224,7 +224,7 @@ fn summarise(
     })
 }
 
-fn trouble(outcome: &Outcome) -> Option<String> {
+fn trouble(outcome: &Outcome, shifted: bool) -> Option<String> {
     let Stop::Trouble { trouble, step } = &outcome.stop else { return None };
     let kept = &outcome.state.progress;
     let tries = match kept.halvings {
@@ -236,9 +236,9 @@ fn trouble(outcome: &Outcome) -> Option<String> {
         Trouble::Engine(EngineError::Device(_)) => "go on with it by `stillpoint resume`, or run it with --engine cpu",
         Trouble::Engine(_) => "try another effects.pressure.solver, or more regular points",
         Trouble::Energy { .. } => "try a smaller time.courant, a smaller cloud.spacing, or a larger guard.energy",
-        Trouble::Diverged(_) | Trouble::Grown { .. } => {
-            "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step"
-        }
+        Trouble::Diverged(_) if shifted => "try a smaller time.courant or time.step, or another cloud.spacing",
+        Trouble::Diverged(_) => "try effects.advection.motion = \"shifted\", a smaller time.courant or time.step",
+        Trouble::Grown { .. } => "try a time.courant between 0.1 and 0.2, or another cloud.spacing",
         Trouble::NonFinite { .. } | Trouble::Figure { .. } | Trouble::Refused(_) => {
             "try a smaller time.courant or a smaller cloud.spacing"
         }

@@ -303,9 +303,9 @@ impl Scene {
         1.0 / (1.0 + 8.0 * kick * self.constants.viscosity / area)
     }
 
-    /// What an error in density weighs in the source of the pressure, `relaxation rho / dt^2`, Pa/m^2; `dt` in s.
-    pub fn stiffness(&self, dt: f64) -> f64 {
-        self.constants.relaxation * self.constants.density / (dt * dt)
+    /// What an error in density weighs in the source of the pressure, `relaxation rho / dt^2`, Pa/m^2.
+    pub fn stiffness(&self, clock: &Clock) -> f64 {
+        clock.share * self.constants.relaxation * self.constants.density / (clock.dt * clock.dt)
     }
 
     /// Distance below which points that approach each other bounce, m.
@@ -317,8 +317,8 @@ impl Scene {
     /// Lengths in time of a step of `dt` s.
     pub fn clock(&self, dt: f64) -> Clock {
         match self.plan.splitting {
-            Splitting::Reflection => Clock { dt, kick: 0.5 * dt, second_kick: 1.0 },
-            Splitting::Projection => Clock { dt, kick: dt, second_kick: 0.0 },
+            Splitting::Reflection => Clock { dt, kick: 0.5 * dt, second_kick: 1.0, share: 1.0 },
+            Splitting::Projection => Clock { dt, kick: dt, second_kick: 0.0, share: 1.0 },
         }
     }
 

@@ -89,7 +89,7 @@ const SHIFTED_RELAXATION: f64 = 0.01;
 
 /// Spacings that nothing moves farther than in a step: of points that stand, and of points that move.
 const DEFAULT_COURANT: f64 = 0.8;
-const MOVING_COURANT: f64 = 0.2;
+pub const MOVING_COURANT: f64 = 0.2;
 
 impl Case {
     /// Largest distance that a point moves in one step, in spacings.

@@ -19,7 +19,7 @@ pub(crate) mod text;
 mod tracer;
 
 pub use check::{LARGEST_CLOUD, LARGEST_RADIUS, LONGEST_FORWARD, MOST_STEPS, SMALLEST_RADIUS, WIDEST_LADDER};
-pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED};
+pub use defaults::{DEFAULT_JITTER, DEFAULT_MINIMUM_DISTANCE, DEFAULT_RADIUS, DEFAULT_SEED, MOVING_COURANT};
 pub use error::{CaseError, KeyError, KeyTrouble, Place};
 pub use moving::{Fill, Initial, Motion, Sensor, Wave};
 pub use obstacle::{Block, Capsule, Circle, Combine, Ellipse, Obstacle, Part, Refine, SIDES};

@@ -86,9 +86,10 @@ impl GpuEngine {
                 Time::DensityPerKick => density_per_kick,
                 Time::Correction => clock.kick / constants.density,
                 Time::Diffusion => clock.kick * constants.viscosity,
-                Time::Stiffness => self.scene.stiffness(clock.dt),
+                Time::Stiffness => self.scene.stiffness(clock),
                 Time::Stop => constants.tolerance * density_per_kick / clock.dt,
                 Time::ViscousStop => constants.viscous_tolerance / clock.dt,
+                Time::Share => clock.share,
                 Time::Seen => self.scene.seen_share(clock.kick),
             })
             .collect();

@@ -117,6 +117,8 @@ numbered! {
         /// Residual at which a solve is done, of the pressure and of viscosity.
         Stop = "CLOCK_STOP",
         ViscousStop = "CLOCK_VISCOUS_STOP",
+        /// Share of what a step does to spread points evenly.
+        Share = "CLOCK_SHARE",
         /// Part of the mean pressure's kick that the source sees, after implicit viscosity.
         Seen = "CLOCK_SEEN",
     }

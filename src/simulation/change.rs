@@ -12,24 +12,22 @@ const SAME_STEP: f64 = 1e-9;
 
 impl Run<'_> {
     /// What depends on the length of a step, before the first one of it.
-    pub(super) fn begin_steps(&mut self, dt: f64) -> Result<(), EngineError> {
-        let clock = self.scene.clock(dt);
-        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
+    pub(super) fn begin_steps(&mut self, clock: &Clock) -> Result<(), EngineError> {
+        self.scene.plan.on_step.iter().try_for_each(|&operation| self.engine.apply(operation, clock))
     }
 
     /// Of a reflection the first half kick alone: after it, drift and whole kick follow each other. A projection begins with the
     /// drift, so that at every time as many kicks are done as drifts.
-    pub(super) fn first_kick(&mut self, dt: f64) -> Result<(), EngineError> {
-        let clock = self.scene.clock(dt);
+    pub(super) fn first_kick(&mut self, clock: &Clock) -> Result<(), EngineError> {
         // What implicit viscosity begins from.
         let mean = [Operation::MeanKickByFit, Operation::MeanKickByAdjoint];
         for &operation in self.scene.plan.kick.iter().filter(|operation| mean.contains(operation)) {
-            self.engine.apply(operation, &clock)?;
+            self.engine.apply(operation, clock)?;
         }
         if self.scene.plan.splitting == Splitting::Projection {
             return Ok(());
         }
-        let clock = Clock { second_kick: 0.0, ..clock };
+        let clock = Clock { second_kick: 0.0, ..*clock };
         let balance = clock.kick * self.scene.balanced_gravity();
         if self.scene.plan.form.is_some() && balance != DVec2::ZERO {
             let inside = vec![balance; self.scene.sizes.interior];

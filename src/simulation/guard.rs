@@ -156,7 +156,7 @@ impl Run<'_> {
     /// Puts the last good state back, to go on from there with half the step.
     pub(super) fn go_back(&mut self, good: &mut State, trouble: &Trouble, step: u64) -> Result<Progress, EngineError> {
         good.write(self.engine)?;
-        self.begin_steps(good.progress.dt)?;
+        self.begin_steps(&self.scene.clock(good.progress.dt))?;
         good.progress.halvings += 1;
         good.progress.calm_rows = 0;
         self.warnings.push(format!(

@@ -5,7 +5,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Limit, Run, SimulationError};
-use crate::case::{LONGEST_FORWARD, MOST_STEPS};
+use crate::case::{LONGEST_FORWARD, MOST_STEPS, MOVING_COURANT, Motion};
 use crate::engine::{Clock, Data, EngineError};
 use crate::step::{Buffer, Operation, Stage};
 
@@ -31,21 +31,26 @@ impl Run<'_> {
 
     /// The step from the limits of the effects present, so that a whole number of steps ends at `time.end`; halved so many
     /// times, and with what keeps it from being longer.
-    pub(super) fn step(&mut self, speed: f64, now: f64, halvings: u32) -> Result<(f64, Limit), SimulationError> {
+    pub(super) fn step(&mut self, speed: f64, now: f64, halvings: u32) -> Result<(Clock, Limit), SimulationError> {
+        let (dt, longest, limit) = self.length(speed, now, halvings)?;
+        let share = if self.scene.case.motion() == Motion::Shifted { self.share(longest, speed) } else { 1.0 };
+        Ok((Clock { share, ..self.scene.clock(dt) }, limit))
+    }
+
+    /// That step, the longest one, and what keeps it from being longer.
+    fn length(&mut self, speed: f64, now: f64, halvings: u32) -> Result<(f64, f64, Limit), SimulationError> {
         let time = &self.scene.case.time;
         let spacing = self.scene.constants.spacing;
         let forward = self.scene.plan.drift.contains(&Operation::RemapForward);
-        let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
         let (longest, limit) = match time.step {
             Some(step) => (step, Limit::Fixed),
             None => {
                 let courant = self.scene.case.courant();
-                let by_motion = if moves { courant * spacing / self.faster(speed) } else { f64::INFINITY };
                 let limits = [
                     (self.limit, self.stable_by()),
                     (self.by_decay(), Limit::Viscosity),
-                    (by_motion, Limit::Courant),
-                    (self.by_fall(), Limit::Gravity),
+                    (self.by_motion(courant, speed), Limit::Courant),
+                    (self.by_fall(courant), Limit::Gravity),
                 ];
                 let shorter = |a: (f64, Limit), b: (f64, Limit)| if b.0 < a.0 { b } else { a };
                 limits.into_iter().fold((f64::INFINITY, Limit::End), shorter)
@@ -55,7 +60,7 @@ impl Run<'_> {
         let limit = if halvings > 0 { Limit::Guard } else { limit };
         let left = self.until(now) - now;
         if left <= 0.0 {
-            return Ok((longest, limit));
+            return Ok((longest, longest, limit));
         }
         let dt = left / steps_in(left, longest);
         // Nor a step that is no number, or none.
@@ -72,7 +77,18 @@ impl Run<'_> {
             self.warnings.push(format!("time.step = {dt:e} s is above the stability limit of the {name}, {limit:e} s"));
         }
         self.doubt_tolerance(dt);
-        Ok((dt, limit))
+        Ok((dt, longest, limit))
+    }
+
+    /// The share of a step of the usual length, which moves no point by more than [`MOVING_COURANT`] spacings, that one of `longest` s is.
+    fn share(&self, longest: f64, speed: f64) -> f64 {
+        (longest / self.by_motion(MOVING_COURANT, speed).min(self.by_fall(MOVING_COURANT))).min(1.0)
+    }
+
+    /// The step in which nothing moves by more than `courant` spacings, s.
+    fn by_motion(&self, courant: f64, speed: f64) -> f64 {
+        let moves = self.scene.case.effects.advection.is_some() && speed > 0.0;
+        if moves { courant * self.scene.constants.spacing / self.faster(speed, courant) } else { f64::INFINITY }
     }
 
     /// The tolerance is of the volume change in a step. Where steps are short beside the time in which the walls pass a spacing,
@@ -90,15 +106,13 @@ impl Run<'_> {
         }
     }
 
-    /// The step in which gravity moves a point at rest by `time.courant` spacings, s.
-    fn by_fall(&self) -> f64 {
+    /// The step in which gravity moves a point at rest by `courant` spacings, s.
+    fn by_fall(&self, courant: f64) -> f64 {
         let (gravity, spacing) = (self.scene.constants.gravity.length(), self.scene.constants.spacing);
         match self.scene.case.effects.advection {
             // Beside the surface a point's fall and the pressure's answer follow each other as in the shortest wave.
-            Some(_) if gravity > 0.0 && self.scene.plan.moves() => {
-                self.scene.case.courant() * (spacing / gravity).sqrt()
-            }
-            Some(_) if gravity > 0.0 => (2.0 * self.scene.case.courant() * spacing / gravity).sqrt(),
+            Some(_) if gravity > 0.0 && self.scene.plan.moves() => courant * (spacing / gravity).sqrt(),
+            Some(_) if gravity > 0.0 => (2.0 * courant * spacing / gravity).sqrt(),
             _ => f64::INFINITY,
         }
     }
@@ -149,7 +163,7 @@ impl Run<'_> {
         if !unit.is_finite() {
             return Ok(f64::INFINITY);
         }
-        let clock = Clock { dt: unit, kick: unit, second_kick: 1.0 };
+        let clock = Clock { dt: unit, kick: unit, second_kick: 1.0, share: 1.0 };
         for _ in 0..POWER_ITERATIONS {
             let norm = trial.iter().map(|value| value.length_squared()).sum::<f64>().sqrt();
             trial.iter_mut().for_each(|value| *value /= norm);

@@ -212,7 +212,7 @@ impl<'a> Run<'a> {
         let mut good = match resumed {
             Some(state) => {
                 state.write(self.engine)?;
-                self.begin_steps(state.progress.dt)?;
+                self.begin_steps(&self.scene.clock(state.progress.dt))?;
                 self.warnings.clone_from(&state.progress.warnings);
                 state
             }
@@ -227,8 +227,8 @@ impl<'a> Run<'a> {
             if progress.steady_rows == STEADY_ROWS {
                 break (Stop::Steady, self.snapshot(progress.time)?);
             }
-            let limit = self.next_step(&mut progress);
-            let row = limit.and_then(|limit| self.row(&mut progress, limit, &started, &mut taken));
+            let next = self.next_step(&mut progress);
+            let row = next.and_then(|next| self.row(&mut progress, next, &started, &mut taken));
             let step = progress.step;
             let interrupted = match row {
                 Ok(Row::Full(row, state)) => {

@@ -1,7 +1,7 @@
 //! Points that move: what is measured of them on the way, what is watched, and how long their steps may be.
 
 use super::{Motion, Progress, Run, State, Trouble};
-use crate::engine::{Data, EngineError};
+use crate::engine::{Clock, Data, EngineError};
 use crate::motion::{self, Watched};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
@@ -77,35 +77,35 @@ impl Run<'_> {
     /// The pressure of points between mirrors at the beginning, for the reports, and for the first solve to begin from: that of the
     /// first step, after which the points are put back. Of MPS, whose pressure answers to an error in density, there is
     /// none yet.
-    pub(super) fn first_pressure(&mut self, dt: f64) -> Result<(), EngineError> {
+    pub(super) fn first_pressure(&mut self, clock: &Clock) -> Result<(), EngineError> {
         if !self.scene.plan.mirrors() {
             return Ok(());
         }
-        let (plan, clock) = (&self.scene.plan, self.scene.clock(dt));
+        let plan = &self.scene.plan;
         let changed = [Buffer::Position(Points::Standing), Buffer::Projected];
         let begun = changed.map(|buffer| self.engine.read(buffer));
         for &operation in plan.drift.iter().chain(&plan.kick) {
             match operation {
                 Operation::Collide => continue,
                 Operation::CorrectMirrored => break,
-                _ => self.engine.apply(operation, &clock)?,
+                _ => self.engine.apply(operation, clock)?,
             }
         }
         for (buffer, begun) in changed.into_iter().zip(begun) {
             self.engine.write(buffer, &begun?)?;
         }
         // The fits of the velocity that was put back.
-        plan.setup.iter().try_for_each(|&operation| self.engine.apply(operation, &clock))
+        plan.setup.iter().try_for_each(|&operation| self.engine.apply(operation, clock))
     }
 
-    /// The speed that points are moved with by the time that it is looked at again, m/s, at `time.courant` spacings a step: they
-    /// fall on until then.
-    pub(super) fn faster(&self, speed: f64) -> f64 {
+    /// The speed that points are moved with by the time that it is looked at again, m/s, at `courant` spacings a step: they fall on
+    /// until then.
+    pub(super) fn faster(&self, speed: f64, courant: f64) -> f64 {
         if !self.scene.plan.moves() {
             return speed;
         }
         let falls = self.scene.constants.gravity.length() * f64::from(STRETCH);
-        let way = self.scene.case.courant() * self.scene.constants.spacing;
+        let way = courant * self.scene.constants.spacing;
         0.5 * (speed + (speed * speed + 4.0 * falls * way).sqrt())
     }
 

@@ -51,10 +51,9 @@ pub fn prices(scene: &Scene, engine: &mut dyn Engine) -> Result<Prices, Simulati
     }
     run.limit = run.stability_limit()?;
     let speed = scene.initial_velocity().iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
-    let (dt, _) = run.step(speed, 0.0, 0)?;
-    run.begin_steps(dt)?;
-    run.first_kick(dt)?;
-    let clock = scene.clock(dt);
+    let (clock, _) = run.step(speed, 0.0, 0)?;
+    run.begin_steps(&clock)?;
+    run.first_kick(&clock)?;
     run.engine.advance(BEFORE, &clock)?;
     let (before, started, mut steps) = (run.engine.seconds(), Instant::now(), 0);
     while started.elapsed() < ENOUGH {

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::length::steps_in;
 use super::{Diagnostics, Limit, Progress, Run, SimulationError, State, Trouble, moving};
-use crate::engine::NonFinite;
+use crate::engine::{Clock, NonFinite};
 
 /// Steps between two looks at the kinetic energy, where rows of diagnostics are further apart.
 const WATCH_EVERY: u32 = 50;
@@ -22,13 +22,14 @@ pub(super) enum Row {
 impl Run<'_> {
     /// The first half kick, and the state after it.
     pub(super) fn begin(&mut self, speed: f64) -> Result<State, SimulationError> {
-        let (dt, _) = self.step(speed, 0.0, 0)?;
-        self.begin_steps(dt)?;
-        self.first_kick(dt)?;
-        self.first_pressure(dt)?;
+        let (clock, _) = self.step(speed, 0.0, 0)?;
+        let dt = clock.dt;
+        self.begin_steps(&clock)?;
+        self.first_kick(&clock)?;
+        self.first_pressure(&clock)?;
         let viscous = Some(self.limit).filter(|limit| limit.is_finite());
         let warnings = self.warnings.clone();
-        let fallbacks = u64::from(self.engine.advance(0, &self.scene.clock(dt))?.fallbacks);
+        let fallbacks = u64::from(self.engine.advance(0, &clock)?.fallbacks);
         let mut progress = Progress { dt, speed, viscous, fallbacks, warnings, ..Progress::default() };
         let mut good = State::read(self.scene, self.engine, &progress)?;
         self.look_at_points(&mut progress, &good)?;
@@ -39,21 +40,21 @@ impl Run<'_> {
     }
 
     /// Chooses the length of the steps of the row to come.
-    pub(super) fn next_step(&mut self, progress: &mut Progress) -> Result<Limit, SimulationError> {
+    pub(super) fn next_step(&mut self, progress: &mut Progress) -> Result<(Clock, Limit), SimulationError> {
         let (next, limit) = self.step(progress.speed, progress.time, progress.halvings)?;
-        self.change_step(next / progress.dt)?;
-        if next != progress.dt {
-            self.begin_steps(next)?;
+        self.change_step(next.dt / progress.dt)?;
+        if next.dt != progress.dt {
+            self.begin_steps(&next)?;
         }
-        progress.dt = next;
-        Ok(limit)
+        progress.dt = next.dt;
+        Ok((next, limit))
     }
 
     /// The steps until the next row of diagnostics, and that row. `taken` counts the steps since `started`.
     pub(super) fn row(
         &mut self,
         progress: &mut Progress,
-        limit: Limit,
+        (clock, limit): (Clock, Limit),
         started: &Instant,
         taken: &mut u64,
     ) -> Result<Row, SimulationError> {
@@ -63,7 +64,6 @@ impl Run<'_> {
         let left = steps_in(self.until(progress.time) - progress.time, dt);
         let (row_start, mut done) = (progress.time, 0_u32);
         let count = (f64::from(asked)).min(left) as u32;
-        let clock = self.scene.clock(dt);
         let interrupted = loop {
             let some = stretch(count - done, started.elapsed(), *taken).min(WATCH_EVERY - done % WATCH_EVERY);
             let advance = match self.engine.advance(some, &clock) {

@@ -58,7 +58,7 @@ fn incompatible(form: &str, solver: &str) -> Row {
     let case = problem(16, &[&keys[..], &["cloud.arrangement=regular"]].concat());
     let scene = Arc::new(Scene::build(&case).expect("a scene"));
     let mut engine = cpu::double(&scene).expect("an engine");
-    let clock = Clock { dt: 1e-3, kick: 1e-3, second_kick: 0.0 };
+    let clock = Clock { dt: 1e-3, kick: 1e-3, second_kick: 0.0, share: 1.0 };
     for &operation in &scene.plan.setup {
         engine.apply(operation, &clock).expect("the setup");
     }

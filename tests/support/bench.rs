@@ -47,7 +47,7 @@ impl Bench {
     fn on(scene: Scene, open: Open) -> Self {
         let scene = Arc::new(scene);
         let engine = open(&scene).expect("an engine");
-        let clock = Clock { dt: 1.0, kick: 1.0, second_kick: 1.0 };
+        let clock = Clock { dt: 1.0, kick: 1.0, second_kick: 1.0, share: 1.0 };
         let mut bench = Self { scene, engine, clock };
         let setup = bench.scene.plan.setup.clone();
         bench.apply(&setup);

@@ -114,7 +114,7 @@ fn apply(engines: &mut Engines, operation: Operation, clock: &Clock, before: &St
 /// Runs the setup, develops the flow, and goes through one step; `look` sees every operation done.
 fn walk(scene: &Arc<Scene>, engines: &mut Engines, look: &mut dyn FnMut(Done)) {
     let buffers = scene.plan.buffers();
-    let clock = scene.clock(0.5 * scene.constants.spacing);
+    let clock = Clock { share: 0.7, ..scene.clock(0.5 * scene.constants.spacing) };
     let mut through = |operations: &[Operation], engines: &mut Engines| {
         for &operation in operations {
             let mut before = rounded(read(engines.double.as_mut(), &buffers));

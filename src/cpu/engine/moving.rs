@@ -85,8 +85,8 @@ impl<T: Real> CpuEngine<T> {
             Operation::BoundPush => {
                 let mut bounded = self.fields.take_index(Buffer::Bounded)?;
                 with_taken!(self.fields, [projected = Buffer::Projected, displacement = Buffer::Displacement], {
-                    let lengths = [real(constants.spacing), dt];
-                    pressure::bound_push(lengths, interior, &mut projected, &mut displacement, &mut bounded);
+                    let longest = real(clock.share * clock.share * pressure::LONGEST_PUSH * constants.spacing);
+                    pressure::bound_push(longest, dt, interior, &mut projected, &mut displacement, &mut bounded);
                 });
                 self.fields.put_index(Buffer::Bounded, bounded);
             }
@@ -117,7 +117,16 @@ impl<T: Real> CpuEngine<T> {
                     let (free, spacing) = (self.fields.index(Buffer::Surface)?, real(constants.spacing));
                     let coefficients = self.fields.real(Buffer::Coefficients)?;
                     let around = self.mirrored()?;
-                    shift::shift(around, spacing, free, coefficients, interior, &mut projected, &mut displacement);
+                    shift::shift(
+                        around,
+                        spacing,
+                        real(clock.share),
+                        free,
+                        coefficients,
+                        interior,
+                        &mut projected,
+                        &mut displacement,
+                    );
                 });
             }
             Operation::DisplacePoints => {
@@ -169,7 +178,7 @@ impl<T: Real> CpuEngine<T> {
                 let crowding = self.fields.real(Buffer::Crowding)?;
                 let scalars = [&mut diagonal[..], &mut source[..], &mut pressures[..]];
                 if operation == Operation::AssembleDensity {
-                    let stiffness = T::from_f64(scene.stiffness(clock.dt) / density::per_area(scene.constants.lattice));
+                    let stiffness = T::from_f64(scene.stiffness(clock) / density::per_area(scene.constants.lattice));
                     density::assemble(around, stiffness, scene.sizes.pressured, crowding, &free, &mut row, scalars);
                 } else {
                     let factor = self.fields.real(Buffer::Factor(Points::Standing))?;
@@ -222,7 +231,7 @@ impl<T: Real> CpuEngine<T> {
             weight: constants.weight,
             weight_density: (constants.density * constants.gravity).to_array().map(T::from_f64),
             density_per_dt: T::from_f64(constants.density / clock.kick),
-            stiffness: T::from_f64(self.scene.stiffness(clock.dt)),
+            stiffness: T::from_f64(self.scene.stiffness(clock)),
             per_area: T::from_f64(density::per_area(constants.lattice)),
         }
     }

@@ -196,19 +196,19 @@ pub fn correct<T: Real>(
     });
 }
 
-/// Shortens the way `dt (u' - u*)` to at most [`LONGEST_PUSH`] spacings and the change of velocity with it, at the points below
-/// `interior`; `bounded` counts the steps in which it did. `spacing` in m, `dt` in s.
+/// Shortens the way `dt (u' - u*)` to at most `longest`, m, and the change of velocity with it, at the points below `interior`; `bounded`
+/// counts the steps in which it did. `dt` in s.
 pub fn bound_push<T: Real>(
-    [spacing, dt]: [T; 2],
+    longest: T,
+    dt: T,
     interior: usize,
     projected: &mut [T],
     displacement: &mut [T],
     bounded: &mut [u32],
 ) {
-    let longest = T::from_f64(LONGEST_PUSH);
     blocks::for_each_3((projected, 2), (displacement, 2), (bounded, 1), &|block, projected, displacement, bounded| {
         for k in 0..BLOCK.min(interior.saturating_sub(block * BLOCK)) {
-            let [x, y] = [0, 1].map(|axis| displacement[2 * k + axis] / spacing);
+            let [x, y] = [displacement[2 * k], displacement[2 * k + 1]];
             let length = (x * x + y * y).sqrt();
             if length > longest {
                 let rest = longest / length - T::from_f64(1.0);
@@ -241,7 +241,7 @@ mod tests {
         displacement[..6].copy_from_slice(&[0.0, 0.1, far[0], far[1], far[0], far[1]]);
         let mut projected = vec![7.0; 2 * BLOCK];
         let mut bounded = vec![3; BLOCK];
-        bound_push::<f64>([spacing, dt], 2, &mut projected, &mut displacement, &mut bounded);
+        bound_push::<f64>(LONGEST_PUSH * spacing, dt, 2, &mut projected, &mut displacement, &mut bounded);
         let expected = [0.0, 0.1, far[0] / 5.0, far[1] / 5.0, far[0], far[1]];
         assert!(displacement.iter().zip(expected).all(|(found, right)| (found - right).abs() < 1e-15));
         let expected = [7.0, 7.0, 7.0 - 0.8 * far[0] / dt, 7.0 - 0.8 * far[1] / dt, 7.0, 7.0];

@@ -3,7 +3,7 @@
 //! Continuous: none; the fluid stays what it is, only where it is looked at changes. Discrete:
 //! `delta_i = strength l0 sum_j -(d_ij / |d_ij|) (1 - |d_ij| / r_s)^2` over `|d_ij| < r_s`, zero on a lattice, at most
 //! [`LONGEST`] spacings. At the surface its part along the normal is left out, which would make the fluid swell; beside the
-//! surface it is that of points closer than one spacing alone. `u(r + delta)` is that of the fit (2.5).
+//! surface it is that of points closer than one spacing alone. Steps shorter than usual take a share of it, see [`crate::engine::Clock::share`]. `u(r + delta)` is that of the fit (2.5).
 //! Sources: Xu, Stansby and Laurence, J. Comput. Phys. 228 (2009) 6703-6725; Lind et al., J. Comput. Phys. 231 (2012)
 //! 1499-1523 (free surfaces).
 
@@ -23,10 +23,11 @@ pub const PARTING: f64 = 0.25;
 /// Longest shift of a step, in spacings.
 pub const LONGEST: f64 = 0.1;
 
-/// Adds the shift to the displacement, and to `projected` what the velocity changes along it, at the points below `interior`.
+/// Adds `share` of the shift to the displacement, and to `projected` what the velocity changes along it, at the points below `interior`.
 pub fn shift<T: Real>(
     around: Around<T>,
     spacing: T,
+    share: T,
     surface: &[u32],
     coefficients: &[T],
     interior: usize,
@@ -69,7 +70,7 @@ pub fn shift<T: Real>(
             let mut delta = [0, 1].map(|axis| full[axis] + change * normal[axis]);
             let length = (delta[0] * delta[0] + delta[1] * delta[1]).max(tiny).sqrt();
             let scale = length.select_above(constant(LONGEST), constant(LONGEST) / length, one);
-            delta = delta.map(|d| d * scale * T::Pack::splat(spacing));
+            delta = delta.map(|d| d * scale * T::Pack::splat(share * spacing));
             let [x, y] = delta.map(|d| d * stencil.per_radius);
             let basis: [T::Pack; N] = moments::basis(x, y);
             let carried = [0, 1]
