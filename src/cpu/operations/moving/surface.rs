@@ -17,6 +17,7 @@ pub const DIRECTIONS: usize = 32;
 const HALF: usize = DIRECTIONS / 2;
 /// Uncovered places in a row that make a surface.
 pub const GAP: u32 = 2;
+const _: () = assert!(GAP >= 2, "every gap has an even place");
 /// Radius of the circles, in spacings.
 pub const REACH: f64 = 1.5;
 /// Number density below which MPS takes a point for the surface, over that of a full lattice.
