@@ -6,7 +6,7 @@
 
 use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::lists::Lists;
-use crate::cpu::real::Real;
+use crate::cpu::real::{Pack, Real};
 
 /// Distance below which points bounce, in spacings: of MPS, and of shifted points, which stand more evenly.
 pub const DISTANCE: f64 = 0.5;
@@ -18,9 +18,14 @@ pub const RESTITUTION: f64 = 0.2;
 pub fn impulses<T: Real>(position: &[T], velocity: &[T], lists: Lists, distance: T, interior: usize, change: &mut [T]) {
     let whole = T::from_f64(1.0 + RESTITUTION);
     let half = T::from_f64(0.5) * whole;
+    let bound = T::Pack::splat(distance * distance);
     blocks::for_each(change, 2, &|block, out| {
         out.fill(T::zero());
-        for i in block * BLOCK..((block + 1) * BLOCK).min(interior) {
+        let all = blocks::packs::<T>(block, interior).flat_map(|first| {
+            let close = close_ones(position, lists, bound, first);
+            (0..T::Pack::LANES).filter(move |lane| close >> lane & 1 != 0).map(move |lane| first + lane)
+        });
+        for i in all.filter(|&i| i < interior) {
             let mut sum = [T::zero(); 2];
             for slot in 0..(lists.count[i] as usize).min(lists.capacity) {
                 let j = lists.neighbours[blocks::at(i, slot, lists.capacity)] as usize;
@@ -39,6 +44,22 @@ pub fn impulses<T: Real>(position: &[T], velocity: &[T], lists: Lists, distance:
             out[lane..lane + 2].copy_from_slice(&sum);
         }
     });
+}
+
+/// Which of the points `i..i + LANES` have a neighbour nearer than the root of `bound`, a bit each.
+#[inline(always)]
+fn close_ones<T: Real>(position: &[T], lists: Lists, bound: T::Pack, i: usize) -> u32 {
+    let [x, y] = T::Pack::load_vectors(&position[2 * i..]);
+    let mut least = bound;
+    lists.for_each::<T>(i, |_, index| {
+        // SAFETY: every stored neighbour is below the number of points.
+        let there = unsafe { T::Pack::gather_vectors(position, index) };
+        let (dx, dy) = (there[0] - x, there[1] - y);
+        let square = dx * dx + dy * dy;
+        // Unused slots hold the point itself.
+        least = least.min(square.select_above(T::Pack::zero(), square, bound));
+    });
+    bound.above(least)
 }
 
 /// Adds them to the velocity, and `dt` times them to the places.
