@@ -1,7 +1,8 @@
 //! A run of a hundred thousand steps: as much memory at its end as at its beginning, and as much energy.
 
-use std::fs;
+use std::process::Command;
 use std::sync::Arc;
+use std::{env, fs};
 
 use stillpoint::cpu;
 use stillpoint::scene::Scene;
@@ -53,8 +54,16 @@ fn soak(steps: u32) {
     assert!(after <= before + (1 << 20), "the memory grows: {before} to {after} bytes");
 }
 
+const ALONE: &str = "STILLPOINT_SOAK_ALONE";
+
+/// In a process of its own: in this one other tests take memory at the same time.
 #[test]
 #[ignore = "a minute"]
 fn a_hundred_thousand_steps() {
-    soak(100_000);
+    if env::var_os(ALONE).is_some() {
+        return soak(100_000);
+    }
+    let arguments = ["--ignored", "--exact", "--nocapture", "soak::a_hundred_thousand_steps"];
+    let mut own = Command::new(env::current_exe().expect("this program"));
+    assert!(own.args(arguments).env(ALONE, "1").status().expect("a process").success());
 }
