@@ -31,7 +31,7 @@ fn the_shipped_cavities_take_what_their_plan_says_and_a_kilobyte_a_point_at_most
 }
 
 /// The same of points that move, whose tank has more cells than it has points: 4 bytes a cell, and as many again for each 64; three
-/// numbers a place of the coarse pressure's grids.
+/// numbers a place of the coarse pressure's grids, and four of its sums for each 64 cells of the finest.
 fn moving_takes_what_its_plan_says(name: &str, spacing: &str, least: usize) {
     let Some(candidate) = candidate() else { return };
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
@@ -42,7 +42,8 @@ fn moving_takes_what_its_plan_says(name: &str, spacing: &str, least: usize) {
     let mut engine = gpu(&candidate, &scene, Precision::Single);
     let planned = scene.plan.total_bytes(&scene.sizes, Precision::Single.bytes()) as u64;
     let coarse = (3 * Precision::Single.bytes() * scene.sizes.coarse) as u64;
-    let own = OWN.0 + points / 2 + 4 * cells + cells / 16 + coarse;
+    let sums = (4 * Precision::Single.bytes()) as u64 * cells.div_ceil(64);
+    let own = OWN.0 + points / 2 + 4 * cells + cells / 16 + coarse + sums;
     let held = engine.allocated_bytes();
     assert!((planned + 1..=planned + own).contains(&held), "{name}: {held} bytes, planned {planned}, own {own}");
     // A step takes none.
