@@ -4,11 +4,12 @@ use std::sync::Arc;
 use stillpoint::cpu::operations::bicgstab::{self, Shift};
 use stillpoint::cpu::operations::coarse::Nothing;
 use stillpoint::cpu::operations::conjugate_gradient;
+use stillpoint::cpu::operations::lists::PACKS;
 use stillpoint::cpu::operations::pressure::{Rows, Stop};
 use stillpoint::cpu::real::{Pack, Real};
 use stillpoint::engine::{Clock, Data, Outcome};
 use stillpoint::scene::Scene;
-use stillpoint::step::Buffer;
+use stillpoint::step::{BLOCK, Buffer};
 use stillpoint::{cpu, known::Known};
 
 use crate::cases::{cavity_of, problem};
@@ -85,12 +86,14 @@ fn incompatible(form: &str, solver: &str) -> Row {
 struct Small([[f64; 2]; 2]);
 
 impl Rows<f64> for Small {
-    fn product(&self, i: usize, p: &[f64]) -> <f64 as Real>::Pack {
+    fn products(&self, block: usize, p: &[f64]) -> [<f64 as Real>::Pack; PACKS] {
         let Small([a, b]) = self;
-        <f64 as Real>::Pack::from_lanes(|lane| match i + lane {
-            0 => a[0] * p[0] + a[1] * p[1],
-            1 => b[0] * p[0] + b[1] * p[1],
-            other => p[other],
+        std::array::from_fn(|pack| {
+            <f64 as Real>::Pack::from_lanes(|lane| match BLOCK * block + <f64 as Real>::Pack::LANES * pack + lane {
+                0 => a[0] * p[0] + a[1] * p[1],
+                1 => b[0] * p[0] + b[1] * p[1],
+                other => p[other],
+            })
         })
     }
 

@@ -15,10 +15,7 @@ type Lanes = <f64 as Real>::Pack;
 
 fn rows_times(rows: &impl Rows<f64>, p: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; p.len()];
-    let lanes = <Lanes as Pack<f64>>::LANES;
-    for (pack, out) in product.chunks_mut(lanes).enumerate() {
-        rows.product(pack * lanes, p).store(out);
-    }
+    rows.multiply(0..p.len(), p, |i, value: Lanes| value.store(&mut product[i..]));
     product
 }
 

@@ -5,7 +5,7 @@
 //! pressure, which makes the system regular unless the left null vector is at right angles to `v`. Source: van der Vorst (1992);
 //! preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003), section 7.4.2.
 
-use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::blocks;
 use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
@@ -58,15 +58,14 @@ pub fn solve<T: Real, C: Correction<T>>(
         let constant = shift.of::<T>(total(pressure), points);
         let [square, scale, mut rho] = blocks::sum_over([&mut *residual, &mut *shadow], &|start, [r, s]| {
             let mut sums = [T::Pack::zero(); 3];
-            for k in (0..r.len()).step_by(T::Pack::LANES) {
-                let i = start + k;
-                let value = load(source, i) - matrix.product(i, pressure) - within::<T>(constant, i, shift.rows);
+            matrix.multiply(start..start + r.len(), pressure, |i, product| {
+                let value = load(source, i) - product - within::<T>(constant, i, shift.rows);
                 let value = within::<T>(value, i, points);
-                value.store(&mut r[k..]);
-                value.store(&mut s[k..]);
+                value.store(&mut r[i - start..]);
+                value.store(&mut s[i - start..]);
                 matrix.measure(i, value, load(diagonal, i) * load(pressure, i), &mut sums[..2]);
                 sums[2] += value * value;
-            }
+            });
             sums.map(|sum| lanes::<T>(sum))
         });
         if monitor.recomputed::<T>(square, scale) == Verdict::Done {
@@ -163,11 +162,9 @@ fn shifted_product<T: Real, C: Correction<T>>(
     });
     let constant = shift.of::<T>(sum, points);
     let [] = blocks::sum_over([out], &|start, [q]| {
-        for block in start / BLOCK..(start + q.len()) / BLOCK {
-            for (i, product) in blocks::packs::<T>(block, usize::MAX).zip(matrix.products(block, scaled)) {
-                within::<T>(product + within::<T>(constant, i, shift.rows), i, points).store(&mut q[i - start..]);
-            }
-        }
+        matrix.multiply(start..start + q.len(), scaled, |i, product| {
+            within::<T>(product + within::<T>(constant, i, shift.rows), i, points).store(&mut q[i - start..]);
+        });
         []
     });
 }

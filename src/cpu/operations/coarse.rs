@@ -20,6 +20,7 @@ use crate::step::coarse::{AROUND, ENTRIES, Level};
 
 /// What the matrix of a coarser grid is divided by.
 pub const SCALE: f64 = 2.0;
+/// Sums that take turns.
 const TURNS: usize = 4;
 /// Number of the sum over neighbours that have a factor, but no entry.
 const BEYOND: u8 = AROUND as u8;
@@ -261,7 +262,6 @@ impl<T: Real, H: Hierarchy<T>> Correction<T> for Coarse<'_, T, H> {
 }
 
 /// Cells of grids, and the matrix over them.
-#[derive(Clone)]
 pub struct Gridded<'a, T> {
     grids: Grids<'a>,
     matrix: &'a [T],

@@ -23,13 +23,8 @@ pub struct Collocated<'a, T> {
 
 impl<T: Real> Rows<T> for Collocated<'_, T> {
     #[inline(always)]
-    fn product(&self, i: usize, p: &[T]) -> T::Pack {
-        self.lists.differences(i, self.row, p)
-    }
-
-    #[inline(always)]
     fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
-        self.lists.block_of_differences(block, self.row, p)
+        self.lists.differences(block, self.row, p)
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@
 //! Source: Hestenes and Stiefel (1952); preconditioned as in Saad, Iterative Methods for Sparse Linear Systems (2003),
 //! algorithm 9.1.
 
-use crate::cpu::blocks::{self, BLOCK};
+use crate::cpu::blocks;
 use crate::cpu::operations::coarse::Correction;
 use crate::cpu::operations::pressure::{Monitor, Rows, Stop, Verdict, lanes, within};
 use crate::cpu::real::{Pack, Real};
@@ -37,12 +37,11 @@ pub fn solve<T: Real, C: Correction<T>>(
         // r = b - K p, its mean taken out; d = r / D.
         let [sum] = blocks::sum_over([&mut residual[..]], &|start, [r]| {
             let mut sum = T::Pack::zero();
-            for k in (0..r.len()).step_by(T::Pack::LANES) {
-                let i = start + k;
-                let value = T::Pack::load(&source[i..]) - matrix.product(i, pressure);
-                value.store(&mut r[k..]);
+            matrix.multiply(start..start + r.len(), pressure, |i, product| {
+                let value = T::Pack::load(&source[i..]) - product;
+                value.store(&mut r[i - start..]);
                 sum += value;
-            }
+            });
             [lanes::<T>(sum)]
         });
         let mean = T::Pack::splat(T::from_f64(if stop.singular { sum / points as f64 } else { 0.0 }));
@@ -75,12 +74,10 @@ pub fn solve<T: Real, C: Correction<T>>(
         loop {
             let [dq] = blocks::sum_over([&mut *product], &|start, [q]| {
                 let mut dq = T::Pack::zero();
-                for block in start / BLOCK..(start + q.len()) / BLOCK {
-                    for (i, value) in blocks::packs::<T>(block, usize::MAX).zip(matrix.products(block, direction)) {
-                        value.store(&mut q[i - start..]);
-                        dq += value * T::Pack::load(&direction[i..]);
-                    }
-                }
+                matrix.multiply(start..start + q.len(), direction, |i, value| {
+                    value.store(&mut q[i - start..]);
+                    dq += value * T::Pack::load(&direction[i..]);
+                });
                 [lanes::<T>(dq)]
             });
             if dq <= 0.0 || !dq.is_finite() {

@@ -44,17 +44,6 @@ pub struct Conservative<'a, T> {
 impl<T: Real> Rows<T> for Conservative<'_, T> {
     /// `(K p)_i = sum_j w_ij (p_i - p_j)`.
     #[inline(always)]
-    fn product(&self, i: usize, p: &[T]) -> T::Pack {
-        let own = T::Pack::load(&p[i..]);
-        let mut sum = T::Pack::zero();
-        self.faces.for_each(i, |index, weight| {
-            // SAFETY: every stored face neighbour is below the number of points.
-            sum += weight * (own - unsafe { T::Pack::gather(p, index) });
-        });
-        sum
-    }
-
-    #[inline(always)]
     fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
         let Faces { neighbours, weight, count, capacity } = self.faces;
         let own = own(p, block);

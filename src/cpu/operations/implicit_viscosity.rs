@@ -216,9 +216,9 @@ pub fn add_mean_pressure<T: Real>(
 ) {
     let (share, scale) = (T::Pack::splat(share), T::Pack::splat(scale));
     blocks::for_each_2((source, 1), (dilation, 1), &|block, source, dilation| {
-        for first in (0..blocks::BLOCK).step_by(T::Pack::LANES) {
-            let i = block * blocks::BLOCK + first;
-            let (sum, before) = (matrix.product(i, mean), T::Pack::load(&source[first..]));
+        let packs = (0..blocks::BLOCK).step_by(T::Pack::LANES);
+        for (first, sum) in packs.zip(matrix.products(block, mean)) {
+            let (i, before) = (block * blocks::BLOCK + first, T::Pack::load(&source[first..]));
             let seen = before - share * sum;
             (scale * seen * T::Pack::load(&matrix.per_volume[i..])).store(&mut dilation[first..]);
             (seen + sum).store(&mut source[first..]);

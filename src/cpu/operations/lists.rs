@@ -13,34 +13,26 @@ pub struct Lists<'a> {
 }
 
 impl Lists<'_> {
+    /// Slots that any of the points `i..i + LANES` uses.
+    #[inline(always)]
+    fn used<T: Real>(&self, i: usize) -> usize {
+        let most = self.count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0);
+        (most as usize).min(self.capacity)
+    }
+
     /// Calls `body(slot, indexes)` for every slot of the points `i..i + LANES`; unused slots hold the point itself.
     #[inline(always)]
     pub fn for_each<T: Real>(&self, i: usize, mut body: impl FnMut(usize, &[u32])) {
-        let rows = self.count[i..i + T::Pack::LANES].iter().copied().max().unwrap_or(0) as usize;
         let first = blocks::at(i, 0, self.capacity);
-        for slot in 0..rows.min(self.capacity) {
+        for slot in 0..self.used::<T>(i) {
             let start = first + slot * BLOCK;
             body(slot, &self.neighbours[start..start + T::Pack::LANES]);
         }
     }
 
-    /// `sum_j row_ij (p_j - p_i)` for the points `i..i + LANES`; `row` has an entry for every slot, blocked.
+    /// `sum_j row_ij (p_j - p_i)` for the points of a block; `row` has an entry for every slot, blocked.
     #[inline(always)]
-    pub fn differences<T: Real>(&self, i: usize, row: &[T], p: &[T]) -> T::Pack {
-        let first = blocks::at(i, 0, self.capacity);
-        let own = T::Pack::load(&p[i..]);
-        let mut sum = T::Pack::zero();
-        self.for_each::<T>(i, |slot, index| {
-            // SAFETY: every stored neighbour is below the number of points.
-            let other = unsafe { T::Pack::gather(p, index) };
-            sum += T::Pack::load(&row[first + slot * BLOCK..]) * (other - own);
-        });
-        sum
-    }
-
-    /// The same, to the last bit, for the points of a block.
-    #[inline(always)]
-    pub fn block_of_differences<T: Real>(&self, block: usize, row: &[T], p: &[T]) -> [T::Pack; PACKS] {
+    pub fn differences<T: Real>(&self, block: usize, row: &[T], p: &[T]) -> [T::Pack; PACKS] {
         let own = own(p, block);
         self.fold(block, row, T::Pack::zero(), |sum, pack, index, [factor]| {
             // SAFETY: every stored neighbour is below the number of points.
@@ -60,9 +52,8 @@ impl Lists<'_> {
         term: impl Fn(A, usize, &[u32], [T::Pack; E]) -> A,
     ) -> [A; PACKS] {
         let mut slots = [0; PACKS];
-        let counts = self.count[block * BLOCK..][..BLOCK].chunks_exact(T::Pack::LANES);
-        for (slots, counts) in slots.iter_mut().zip(counts) {
-            *slots = (counts.iter().copied().max().unwrap_or(0) as usize).min(self.capacity);
+        for (slots, i) in slots.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
+            *slots = self.used::<T>(i);
         }
         let width = self.capacity * BLOCK;
         let neighbours = &self.neighbours[block * width..][..width];

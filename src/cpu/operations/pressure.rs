@@ -1,23 +1,25 @@
 //! What the iterative pressure solvers share: the matrix as rows, when to stop, what to report.
 
-use crate::cpu::blocks;
+use std::ops::Range;
+
+use crate::cpu::blocks::{self, BLOCK};
 use crate::cpu::operations::lists::PACKS;
 use crate::cpu::real::{Pack, Real};
 use crate::engine::{Outcome, SolveInfo};
 
-/// A pressure matrix, a pack of rows at a time.
+/// A pressure matrix, a block of rows at a time.
 pub trait Rows<T: Real>: Sync {
-    /// `(A p)_i` for the points `i..i + LANES`.
-    fn product(&self, i: usize, p: &[T]) -> T::Pack;
+    /// `A p` at the points of a block, pack by pack.
+    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS];
 
-    /// The same, to the last bit, for the points of a block.
+    /// Calls `body(i, (A p)_i)` for the packs of whole blocks of points.
     #[inline(always)]
-    fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
-        let mut products = [T::Pack::zero(); PACKS];
-        for (product, i) in products.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
-            *product = self.product(i, p);
+    fn multiply(&self, range: Range<usize>, p: &[T], mut body: impl FnMut(usize, T::Pack)) {
+        for block in range.start / BLOCK..range.end / BLOCK {
+            for (i, product) in blocks::packs::<T>(block, usize::MAX).zip(self.products(block, p)) {
+                body(i, product);
+            }
         }
-        products
     }
 
     /// Adds to `sums` the squares of two entries in the unit that the tolerance is in: of the residual, and of the
@@ -123,18 +125,19 @@ impl Monitor {
 /// Root mean square of what `pressure` leaves of `source`, `b - A p` less its mean over the first `shifted` rows, which have a
 /// multiplier where the matrix is singular, in the unit that the tolerance is in.
 pub fn residual<T: Real>(matrix: &impl Rows<T>, points: usize, shifted: usize, source: &[T], pressure: &[T]) -> f64 {
-    let left = |i: usize| T::Pack::load(&source[i..]) - matrix.product(i, pressure);
+    let left = |i: usize, product: T::Pack| T::Pack::load(&source[i..]) - product;
     let [sum] = blocks::sum_ranges(source.len(), &|range| {
-        let packs = range.step_by(T::Pack::LANES);
-        [packs.map(|i| lanes::<T>(within::<T>(left(i), i, shifted))).sum()]
+        let mut sum = 0.0;
+        matrix.multiply(range, pressure, |i, product| sum += lanes::<T>(within::<T>(left(i, product), i, shifted)));
+        [sum]
     });
     let mean = T::Pack::splat(T::from_f64(sum / shifted.max(1) as f64));
     let [square] = blocks::sum_ranges(source.len(), &|range| {
         let mut sums = [T::Pack::zero(); 2];
-        for i in range.step_by(T::Pack::LANES) {
-            let left = left(i) - within::<T>(mean, i, shifted);
+        matrix.multiply(range, pressure, |i, product| {
+            let left = left(i, product) - within::<T>(mean, i, shifted);
             matrix.measure(i, within::<T>(left, i, points), T::Pack::zero(), &mut sums);
-        }
+        });
         [lanes::<T>(sums[0])]
     });
     (square / points as f64).sqrt()

@@ -26,16 +26,8 @@ pub struct Symmetric<'a, T> {
 
 impl<T: Real> Rows<T> for Symmetric<'_, T> {
     #[inline(always)]
-    fn product(&self, i: usize, p: &[T]) -> T::Pack {
-        if i >= self.pressured {
-            return T::Pack::zero();
-        }
-        -self.lists.differences(i, self.row, p)
-    }
-
-    #[inline(always)]
     fn products(&self, block: usize, p: &[T]) -> [T::Pack; PACKS] {
-        let mut sums = self.lists.block_of_differences(block, self.row, p);
+        let mut sums = self.lists.differences(block, self.row, p);
         for (sum, i) in sums.iter_mut().zip(blocks::packs::<T>(block, usize::MAX)) {
             *sum = if i < self.pressured { -*sum } else { T::Pack::zero() };
         }

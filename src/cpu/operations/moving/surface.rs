@@ -58,7 +58,6 @@ pub fn has_gap(uncovered: u32) -> bool {
 type Sides<P> = [[P; 2]; HALF / 2];
 
 /// How far the circles about neighbours reach beyond places on that about a point: above 0 where one covers it.
-#[derive(Clone, Copy)]
 struct Reach<P> {
     ahead: [P; HALF / 2],
     behind: [P; HALF / 2],
